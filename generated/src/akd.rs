@@ -727,80 +727,64 @@ impl<C> Akd<C> {
     /// RxPDO mapping 1: 0x1600.
     /// The constants for the object's entries are in [`objects::rx_pdo_mapping_1`].
     #[doc(alias("1600", "0x1600"))]
-    pub fn rx_pdo_mapping_1(
-        &mut self,
-    ) -> objects::rx_pdo_mapping_1::RxPdoMapping1Accessors<'_, C> {
-        objects::rx_pdo_mapping_1::RxPdoMapping1Accessors {
+    pub fn rx_pdo_mapping_1(&mut self) -> objects::RxPdoMapping1Accessors<'_, C> {
+        objects::RxPdoMapping1Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 2: 0x1601.
     /// The constants for the object's entries are in [`objects::rx_pdo_mapping_2`].
     #[doc(alias("1601", "0x1601"))]
-    pub fn rx_pdo_mapping_2(
-        &mut self,
-    ) -> objects::rx_pdo_mapping_2::RxPdoMapping2Accessors<'_, C> {
-        objects::rx_pdo_mapping_2::RxPdoMapping2Accessors {
+    pub fn rx_pdo_mapping_2(&mut self) -> objects::RxPdoMapping2Accessors<'_, C> {
+        objects::RxPdoMapping2Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 3: 0x1602.
     /// The constants for the object's entries are in [`objects::rx_pdo_mapping_3`].
     #[doc(alias("1602", "0x1602"))]
-    pub fn rx_pdo_mapping_3(
-        &mut self,
-    ) -> objects::rx_pdo_mapping_3::RxPdoMapping3Accessors<'_, C> {
-        objects::rx_pdo_mapping_3::RxPdoMapping3Accessors {
+    pub fn rx_pdo_mapping_3(&mut self) -> objects::RxPdoMapping3Accessors<'_, C> {
+        objects::RxPdoMapping3Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 4: 0x1603.
     /// The constants for the object's entries are in [`objects::rx_pdo_mapping_4`].
     #[doc(alias("1603", "0x1603"))]
-    pub fn rx_pdo_mapping_4(
-        &mut self,
-    ) -> objects::rx_pdo_mapping_4::RxPdoMapping4Accessors<'_, C> {
-        objects::rx_pdo_mapping_4::RxPdoMapping4Accessors {
+    pub fn rx_pdo_mapping_4(&mut self) -> objects::RxPdoMapping4Accessors<'_, C> {
+        objects::RxPdoMapping4Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 1: 0x1A00.
     /// The constants for the object's entries are in [`objects::tx_pdo_mapping_1`].
     #[doc(alias("1A00", "0x1A00"))]
-    pub fn tx_pdo_mapping_1(
-        &mut self,
-    ) -> objects::tx_pdo_mapping_1::TxPdoMapping1Accessors<'_, C> {
-        objects::tx_pdo_mapping_1::TxPdoMapping1Accessors {
+    pub fn tx_pdo_mapping_1(&mut self) -> objects::TxPdoMapping1Accessors<'_, C> {
+        objects::TxPdoMapping1Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 2: 0x1A01.
     /// The constants for the object's entries are in [`objects::tx_pdo_mapping_2`].
     #[doc(alias("1A01", "0x1A01"))]
-    pub fn tx_pdo_mapping_2(
-        &mut self,
-    ) -> objects::tx_pdo_mapping_2::TxPdoMapping2Accessors<'_, C> {
-        objects::tx_pdo_mapping_2::TxPdoMapping2Accessors {
+    pub fn tx_pdo_mapping_2(&mut self) -> objects::TxPdoMapping2Accessors<'_, C> {
+        objects::TxPdoMapping2Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 3: 0x1A02.
     /// The constants for the object's entries are in [`objects::tx_pdo_mapping_3`].
     #[doc(alias("1A02", "0x1A02"))]
-    pub fn tx_pdo_mapping_3(
-        &mut self,
-    ) -> objects::tx_pdo_mapping_3::TxPdoMapping3Accessors<'_, C> {
-        objects::tx_pdo_mapping_3::TxPdoMapping3Accessors {
+    pub fn tx_pdo_mapping_3(&mut self) -> objects::TxPdoMapping3Accessors<'_, C> {
+        objects::TxPdoMapping3Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 4: 0x1A03.
     /// The constants for the object's entries are in [`objects::tx_pdo_mapping_4`].
     #[doc(alias("1A03", "0x1A03"))]
-    pub fn tx_pdo_mapping_4(
-        &mut self,
-    ) -> objects::tx_pdo_mapping_4::TxPdoMapping4Accessors<'_, C> {
-        objects::tx_pdo_mapping_4::TxPdoMapping4Accessors {
+    pub fn tx_pdo_mapping_4(&mut self) -> objects::TxPdoMapping4Accessors<'_, C> {
+        objects::TxPdoMapping4Accessors {
             client: &mut self.client,
         }
     }
@@ -809,8 +793,8 @@ impl<C> Akd<C> {
     #[doc(alias("1C12", "0x1C12"))]
     pub fn sync_manager_2_assignment(
         &mut self,
-    ) -> objects::sync_manager_2_assignment::SyncManager2AssignmentAccessors<'_, C> {
-        objects::sync_manager_2_assignment::SyncManager2AssignmentAccessors {
+    ) -> objects::SyncManager2AssignmentAccessors<'_, C> {
+        objects::SyncManager2AssignmentAccessors {
             client: &mut self.client,
         }
     }
@@ -819,8 +803,8 @@ impl<C> Akd<C> {
     #[doc(alias("1C13", "0x1C13"))]
     pub fn sync_manager_3_assignment(
         &mut self,
-    ) -> objects::sync_manager_3_assignment::SyncManager3AssignmentAccessors<'_, C> {
-        objects::sync_manager_3_assignment::SyncManager3AssignmentAccessors {
+    ) -> objects::SyncManager3AssignmentAccessors<'_, C> {
+        objects::SyncManager3AssignmentAccessors {
             client: &mut self.client,
         }
     }
@@ -965,8 +949,8 @@ impl<C> Akd<C> {
     #[doc(alias("60C1", "0x60C1"))]
     pub fn interpolation_data_record(
         &mut self,
-    ) -> objects::interpolation_data_record::InterpolationDataRecordAccessors<'_, C> {
-        objects::interpolation_data_record::InterpolationDataRecordAccessors {
+    ) -> objects::InterpolationDataRecordAccessors<'_, C> {
+        objects::InterpolationDataRecordAccessors {
             client: &mut self.client,
         }
     }
@@ -975,8 +959,8 @@ impl<C> Akd<C> {
     #[doc(alias("60C2", "0x60C2"))]
     pub fn interpolation_time_period(
         &mut self,
-    ) -> objects::interpolation_time_period::InterpolationTimePeriodAccessors<'_, C> {
-        objects::interpolation_time_period::InterpolationTimePeriodAccessors {
+    ) -> objects::InterpolationTimePeriodAccessors<'_, C> {
+        objects::InterpolationTimePeriodAccessors {
             client: &mut self.client,
         }
     }
@@ -1003,10 +987,8 @@ impl<C> Akd<C> {
     /// Digital outputs: 0x60FE.
     /// The constants for the object's entries are in [`objects::digital_outputs`].
     #[doc(alias("60FE", "0x60FE"))]
-    pub fn digital_outputs(
-        &mut self,
-    ) -> objects::digital_outputs::DigitalOutputsAccessors<'_, C> {
-        objects::digital_outputs::DigitalOutputsAccessors {
+    pub fn digital_outputs(&mut self) -> objects::DigitalOutputsAccessors<'_, C> {
+        objects::DigitalOutputsAccessors {
             client: &mut self.client,
         }
     }
@@ -4955,6 +4937,7 @@ pub mod procedures {
         rt::SdoWrite::new_u8(0x60C2, 0x02, 0xFD),
     ];
 }
+#[allow(non_camel_case_types)]
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -5359,15 +5342,15 @@ pub mod objects {
     /// RxPDO mapping 1.
     ///
     /// RECORD 0x1600.
-    pub mod rx_pdo_mapping_1 {
-        use ::lexibus as rt;
+    pub enum rx_pdo_mapping_1 {}
+    impl rx_pdo_mapping_1 {
         /// Number of entries: Range 0 to 4, 0x1600:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdoMapping1Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1600, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -5376,129 +5359,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping1Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping1Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1600,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1600:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping1Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping1Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1600,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1600:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping1Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping1Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1600,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1600:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping1Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping1Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. RxPDO mapping 1: 0x1600.
-        pub struct RxPdoMapping1Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1600,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. RxPDO mapping 1: 0x1600.
+    pub struct RxPdoMapping1Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdoMapping1Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1600:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo_mapping_1::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            rx_pdo_mapping_1::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdoMapping1Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1600:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1600:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1600:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1600:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1600:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_1::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_1::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1600:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_1::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_1::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1600:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_1::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_1::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1600:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_1::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_1::ENTRY_4.at(self.client)
         }
     }
     /// RxPDO mapping 2.
     ///
     /// RECORD 0x1601.
-    pub mod rx_pdo_mapping_2 {
-        use ::lexibus as rt;
+    pub enum rx_pdo_mapping_2 {}
+    impl rx_pdo_mapping_2 {
         /// Number of entries: Range 0 to 4, 0x1601:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdoMapping2Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1601, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -5507,129 +5472,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping2Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping2Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1601,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping2Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping2Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1601,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1601:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping2Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping2Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1601,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1601:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping2Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping2Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. RxPDO mapping 2: 0x1601.
-        pub struct RxPdoMapping2Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1601,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. RxPDO mapping 2: 0x1601.
+    pub struct RxPdoMapping2Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdoMapping2Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1601:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo_mapping_2::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            rx_pdo_mapping_2::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdoMapping2Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1601:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1601:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1601:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1601:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_2::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_2::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1601:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_2::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_2::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1601:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_2::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_2::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1601:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_2::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_2::ENTRY_4.at(self.client)
         }
     }
     /// RxPDO mapping 3.
     ///
     /// RECORD 0x1602.
-    pub mod rx_pdo_mapping_3 {
-        use ::lexibus as rt;
+    pub enum rx_pdo_mapping_3 {}
+    impl rx_pdo_mapping_3 {
         /// Number of entries: Range 0 to 4, 0x1602:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdoMapping3Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1602, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -5638,129 +5585,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1602:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping3Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping3Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1602,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1602:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping3Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping3Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1602,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1602:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping3Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping3Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1602,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1602:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping3Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping3Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. RxPDO mapping 3: 0x1602.
-        pub struct RxPdoMapping3Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1602,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. RxPDO mapping 3: 0x1602.
+    pub struct RxPdoMapping3Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdoMapping3Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1602:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo_mapping_3::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            rx_pdo_mapping_3::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdoMapping3Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1602:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1602:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1602:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1602:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1602:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1602:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_3::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_3::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1602:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_3::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_3::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1602:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_3::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_3::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1602:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_3::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_3::ENTRY_4.at(self.client)
         }
     }
     /// RxPDO mapping 4.
     ///
     /// RECORD 0x1603.
-    pub mod rx_pdo_mapping_4 {
-        use ::lexibus as rt;
+    pub enum rx_pdo_mapping_4 {}
+    impl rx_pdo_mapping_4 {
         /// Number of entries: Range 0 to 4, 0x1603:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdoMapping4Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1603, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -5769,129 +5698,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1603:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping4Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping4Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1603,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1603:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping4Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping4Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1603,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1603:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping4Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping4Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1603,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1603:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdoMapping4Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdoMapping4Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. RxPDO mapping 4: 0x1603.
-        pub struct RxPdoMapping4Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1603,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. RxPDO mapping 4: 0x1603.
+    pub struct RxPdoMapping4Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdoMapping4Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1603:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo_mapping_4::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            rx_pdo_mapping_4::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdoMapping4Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1603:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1603:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1603:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1603:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1603:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1603:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_4::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_4::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1603:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_4::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_4::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1603:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_4::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_4::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1603:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo_mapping_4::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            rx_pdo_mapping_4::ENTRY_4.at(self.client)
         }
     }
     /// TxPDO mapping 1.
     ///
     /// RECORD 0x1A00.
-    pub mod tx_pdo_mapping_1 {
-        use ::lexibus as rt;
+    pub enum tx_pdo_mapping_1 {}
+    impl tx_pdo_mapping_1 {
         /// Number of entries: Range 0 to 4, 0x1A00:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdoMapping1Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A00, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -5900,129 +5811,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping1Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping1Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A00,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1A00:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping1Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping1Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A00,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1A00:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping1Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping1Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A00,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1A00:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping1Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping1Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. TxPDO mapping 1: 0x1A00.
-        pub struct TxPdoMapping1Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A00,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. TxPDO mapping 1: 0x1A00.
+    pub struct TxPdoMapping1Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdoMapping1Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1A00:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo_mapping_1::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            tx_pdo_mapping_1::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdoMapping1Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1A00:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1A00:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1A00:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1A00:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1A00:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_1::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_1::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1A00:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_1::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_1::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1A00:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_1::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_1::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1A00:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_1::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_1::ENTRY_4.at(self.client)
         }
     }
     /// TxPDO mapping 2.
     ///
     /// RECORD 0x1A01.
-    pub mod tx_pdo_mapping_2 {
-        use ::lexibus as rt;
+    pub enum tx_pdo_mapping_2 {}
+    impl tx_pdo_mapping_2 {
         /// Number of entries: Range 0 to 4, 0x1A01:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdoMapping2Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A01, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -6031,129 +5924,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping2Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping2Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A01,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping2Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping2Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A01,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1A01:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping2Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping2Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A01,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1A01:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping2Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping2Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. TxPDO mapping 2: 0x1A01.
-        pub struct TxPdoMapping2Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A01,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. TxPDO mapping 2: 0x1A01.
+    pub struct TxPdoMapping2Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdoMapping2Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1A01:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo_mapping_2::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            tx_pdo_mapping_2::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdoMapping2Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1A01:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1A01:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1A01:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1A01:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_2::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_2::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1A01:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_2::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_2::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1A01:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_2::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_2::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1A01:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_2::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_2::ENTRY_4.at(self.client)
         }
     }
     /// TxPDO mapping 3.
     ///
     /// RECORD 0x1A02.
-    pub mod tx_pdo_mapping_3 {
-        use ::lexibus as rt;
+    pub enum tx_pdo_mapping_3 {}
+    impl tx_pdo_mapping_3 {
         /// Number of entries: Range 0 to 4, 0x1A02:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdoMapping3Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A02, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -6162,129 +6037,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1A02:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping3Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping3Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A02,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1A02:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping3Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping3Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A02,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1A02:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping3Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping3Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A02,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1A02:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping3Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping3Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. TxPDO mapping 3: 0x1A02.
-        pub struct TxPdoMapping3Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A02,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. TxPDO mapping 3: 0x1A02.
+    pub struct TxPdoMapping3Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdoMapping3Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1A02:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo_mapping_3::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            tx_pdo_mapping_3::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdoMapping3Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1A02:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1A02:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1A02:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1A02:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1A02:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1A02:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_3::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_3::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1A02:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_3::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_3::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1A02:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_3::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_3::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1A02:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_3::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_3::ENTRY_4.at(self.client)
         }
     }
     /// TxPDO mapping 4.
     ///
     /// RECORD 0x1A03.
-    pub mod tx_pdo_mapping_4 {
-        use ::lexibus as rt;
+    pub enum tx_pdo_mapping_4 {}
+    impl tx_pdo_mapping_4 {
         /// Number of entries: Range 0 to 4, 0x1A03:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdoMapping4Accessors::number_of_entries`].
         ///
         /// Number of mapped objects. Writing 0 clears the mapping.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A03, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -6293,129 +6150,111 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Entry 1: 0x1A03:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping4Accessors::entry_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping4Accessors::entry_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_1: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x01, "Entry 1");
+        pub const ENTRY_1: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A03,
+            0x01,
+            "Entry 1",
+        );
         /// Entry 2: 0x1A03:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping4Accessors::entry_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping4Accessors::entry_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_2: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x02, "Entry 2");
+        pub const ENTRY_2: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A03,
+            0x02,
+            "Entry 2",
+        );
         /// Entry 3: 0x1A03:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping4Accessors::entry_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping4Accessors::entry_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_3: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x03, "Entry 3");
+        pub const ENTRY_3: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A03,
+            0x03,
+            "Entry 3",
+        );
         /// Entry 4: 0x1A03:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdoMapping4Accessors::entry_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdoMapping4Accessors::entry_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits.
         ///
         /// Manual: 4\.6.1 Esempio: mappatura libera PDO.
-        pub const ENTRY_4: super::ReadWrite<
-            super::super::types::PdoMapping,
-            rt::OnCoE,
-        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x04, "Entry 4");
-        /// Accessors for the entries of the object. TxPDO mapping 4: 0x1A03.
-        pub struct TxPdoMapping4Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+        pub const ENTRY_4: ReadWrite<super::types::PdoMapping, rt::OnCoE> = ReadWriteNamedPdoMappingOnCoE::coe_object(
+            0x1A03,
+            0x04,
+            "Entry 4",
+        );
+    }
+    /// Accessors for the entries of the object. TxPDO mapping 4: 0x1A03.
+    pub struct TxPdoMapping4Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdoMapping4Accessors<'_, C> {
+        /// Number of mapped objects. Writing 0 clears the mapping.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1A03:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo_mapping_4::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            tx_pdo_mapping_4::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdoMapping4Accessors<'_, C> {
-            /// Number of mapped objects. Writing 0 clears the mapping.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1A03:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 1: 0x1A03:01, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 2: 0x1A03:02, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 3: 0x1A03:03, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits.
-            ///
-            /// Entry 4: 0x1A03:04, UNSIGNED32, read-write.
-            /// Constant: [`ENTRY_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn entry_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCoE,
-            > {
-                ENTRY_4.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 1: 0x1A03:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_4::ENTRY_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_4::ENTRY_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 2: 0x1A03:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_4::ENTRY_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_4::ENTRY_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 3: 0x1A03:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_4::ENTRY_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_4::ENTRY_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits.
+        ///
+        /// Entry 4: 0x1A03:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo_mapping_4::ENTRY_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn entry_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCoE> {
+            tx_pdo_mapping_4::ENTRY_4.at(self.client)
         }
     }
     /// Sync manager 2 assignment.
     ///
     /// ARRAY 0x1C12.
-    pub mod sync_manager_2_assignment {
-        use ::lexibus as rt;
+    pub enum sync_manager_2_assignment {}
+    impl sync_manager_2_assignment {
         /// Number of entries: Range 0 to 4, 0x1C12:00, UNSIGNED8, read-write.
         /// Accessor: [`SyncManager2AssignmentAccessors::number_of_entries`].
         ///
         /// Number of assigned PDOs. Writing 0 clears the assignment.
         ///
         /// Manual: 4\.5 Mappature fisse PDO; 4.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1C12, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -6429,7 +6268,7 @@ pub mod objects {
         /// Index of the first assigned RxPDO. A fixed mapping uses only sub-index 1.
         ///
         /// Manual: 4\.5 Mappature fisse PDO; 4.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
+        pub const PDO_1: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object_with_default(
             0x1C12,
             0x01,
             "PDO 1",
@@ -6441,7 +6280,7 @@ pub mod objects {
         /// Index of a further assigned RxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_2: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x02,
             "PDO 2",
@@ -6452,7 +6291,7 @@ pub mod objects {
         /// Index of a further assigned RxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_3: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x03,
             "PDO 3",
@@ -6463,67 +6302,65 @@ pub mod objects {
         /// Index of a further assigned RxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_4: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x04,
             "PDO 4",
         );
-        /// Accessors for the entries of the object. Sync manager 2 assignment: 0x1C12.
-        pub struct SyncManager2AssignmentAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Sync manager 2 assignment: 0x1C12.
+    pub struct SyncManager2AssignmentAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> SyncManager2AssignmentAccessors<'_, C> {
+        /// Number of assigned PDOs. Writing 0 clears the assignment.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1C12:00, UNSIGNED8, read-write.
+        /// Constant: [`sync_manager_2_assignment::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            sync_manager_2_assignment::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> SyncManager2AssignmentAccessors<'_, C> {
-            /// Number of assigned PDOs. Writing 0 clears the assignment.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1C12:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Index of the first assigned RxPDO. A fixed mapping uses only sub-index 1.
-            ///
-            /// PDO 1: Default 0x1701, 0x1C12:01, UNSIGNED16, read-write.
-            /// Constant: [`PDO_1`].
-            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_1.at(self.client)
-            }
-            /// Index of a further assigned RxPDO, used only with free mappings.
-            ///
-            /// PDO 2: 0x1C12:02, UNSIGNED16, read-write.
-            /// Constant: [`PDO_2`].
-            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_2.at(self.client)
-            }
-            /// Index of a further assigned RxPDO, used only with free mappings.
-            ///
-            /// PDO 3: 0x1C12:03, UNSIGNED16, read-write.
-            /// Constant: [`PDO_3`].
-            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_3.at(self.client)
-            }
-            /// Index of a further assigned RxPDO, used only with free mappings.
-            ///
-            /// PDO 4: 0x1C12:04, UNSIGNED16, read-write.
-            /// Constant: [`PDO_4`].
-            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_4.at(self.client)
-            }
+        /// Index of the first assigned RxPDO. A fixed mapping uses only sub-index 1.
+        ///
+        /// PDO 1: Default 0x1701, 0x1C12:01, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_2_assignment::PDO_1`].
+        pub fn pdo_1(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_2_assignment::PDO_1.at(self.client)
+        }
+        /// Index of a further assigned RxPDO, used only with free mappings.
+        ///
+        /// PDO 2: 0x1C12:02, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_2_assignment::PDO_2`].
+        pub fn pdo_2(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_2_assignment::PDO_2.at(self.client)
+        }
+        /// Index of a further assigned RxPDO, used only with free mappings.
+        ///
+        /// PDO 3: 0x1C12:03, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_2_assignment::PDO_3`].
+        pub fn pdo_3(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_2_assignment::PDO_3.at(self.client)
+        }
+        /// Index of a further assigned RxPDO, used only with free mappings.
+        ///
+        /// PDO 4: 0x1C12:04, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_2_assignment::PDO_4`].
+        pub fn pdo_4(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_2_assignment::PDO_4.at(self.client)
         }
     }
     /// Sync manager 3 assignment.
     ///
     /// ARRAY 0x1C13.
-    pub mod sync_manager_3_assignment {
-        use ::lexibus as rt;
+    pub enum sync_manager_3_assignment {}
+    impl sync_manager_3_assignment {
         /// Number of entries: Range 0 to 4, 0x1C13:00, UNSIGNED8, read-write.
         /// Accessor: [`SyncManager3AssignmentAccessors::number_of_entries`].
         ///
         /// Number of assigned PDOs. Writing 0 clears the assignment.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1C13, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -6537,7 +6374,7 @@ pub mod objects {
         /// Index of the first assigned TxPDO. A fixed mapping uses only sub-index 1.
         ///
         /// Manual: 4\.5 Mappature fisse PDO; 4.6 Mappature flessibili PDO; 4.6.1 Esempio: mappatura libera PDO.
-        pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
+        pub const PDO_1: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object_with_default(
             0x1C13,
             0x01,
             "PDO 1",
@@ -6549,7 +6386,7 @@ pub mod objects {
         /// Index of a further assigned TxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_2: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x02,
             "PDO 2",
@@ -6560,7 +6397,7 @@ pub mod objects {
         /// Index of a further assigned TxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_3: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x03,
             "PDO 3",
@@ -6571,53 +6408,51 @@ pub mod objects {
         /// Index of a further assigned TxPDO, used only with free mappings.
         ///
         /// Manual: 4\.6 Mappature flessibili PDO.
-        pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const PDO_4: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x04,
             "PDO 4",
         );
-        /// Accessors for the entries of the object. Sync manager 3 assignment: 0x1C13.
-        pub struct SyncManager3AssignmentAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Sync manager 3 assignment: 0x1C13.
+    pub struct SyncManager3AssignmentAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> SyncManager3AssignmentAccessors<'_, C> {
+        /// Number of assigned PDOs. Writing 0 clears the assignment.
+        ///
+        /// Number of entries: Range 0 to 4, 0x1C13:00, UNSIGNED8, read-write.
+        /// Constant: [`sync_manager_3_assignment::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            sync_manager_3_assignment::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> SyncManager3AssignmentAccessors<'_, C> {
-            /// Number of assigned PDOs. Writing 0 clears the assignment.
-            ///
-            /// Number of entries: Range 0 to 4, 0x1C13:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Index of the first assigned TxPDO. A fixed mapping uses only sub-index 1.
-            ///
-            /// PDO 1: Default 0x1B01, 0x1C13:01, UNSIGNED16, read-write.
-            /// Constant: [`PDO_1`].
-            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_1.at(self.client)
-            }
-            /// Index of a further assigned TxPDO, used only with free mappings.
-            ///
-            /// PDO 2: 0x1C13:02, UNSIGNED16, read-write.
-            /// Constant: [`PDO_2`].
-            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_2.at(self.client)
-            }
-            /// Index of a further assigned TxPDO, used only with free mappings.
-            ///
-            /// PDO 3: 0x1C13:03, UNSIGNED16, read-write.
-            /// Constant: [`PDO_3`].
-            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_3.at(self.client)
-            }
-            /// Index of a further assigned TxPDO, used only with free mappings.
-            ///
-            /// PDO 4: 0x1C13:04, UNSIGNED16, read-write.
-            /// Constant: [`PDO_4`].
-            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                PDO_4.at(self.client)
-            }
+        /// Index of the first assigned TxPDO. A fixed mapping uses only sub-index 1.
+        ///
+        /// PDO 1: Default 0x1B01, 0x1C13:01, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_3_assignment::PDO_1`].
+        pub fn pdo_1(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_3_assignment::PDO_1.at(self.client)
+        }
+        /// Index of a further assigned TxPDO, used only with free mappings.
+        ///
+        /// PDO 2: 0x1C13:02, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_3_assignment::PDO_2`].
+        pub fn pdo_2(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_3_assignment::PDO_2.at(self.client)
+        }
+        /// Index of a further assigned TxPDO, used only with free mappings.
+        ///
+        /// PDO 3: 0x1C13:03, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_3_assignment::PDO_3`].
+        pub fn pdo_3(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_3_assignment::PDO_3.at(self.client)
+        }
+        /// Index of a further assigned TxPDO, used only with free mappings.
+        ///
+        /// PDO 4: 0x1C13:04, UNSIGNED16, read-write.
+        /// Constant: [`sync_manager_3_assignment::PDO_4`].
+        pub fn pdo_4(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            sync_manager_3_assignment::PDO_4.at(self.client)
         }
     }
     /// Second position feedback: 0x2050:00, INTEGER32, read-only, mappable into TPDOs.
@@ -6776,46 +6611,46 @@ pub mod objects {
     /// Interpolation data record.
     ///
     /// RECORD 0x60C1.
-    pub mod interpolation_data_record {
-        use ::lexibus as rt;
+    pub enum interpolation_data_record {}
+    impl interpolation_data_record {
         /// Position command value: 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
-        /// Accessor: [`InterpolationDataRecordAccessors::position_command_value`]. Mapped in [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722) and [`RxPdo1723`](super::super::pdo::RxPdo1723).
+        /// Accessor: [`InterpolationDataRecordAccessors::position_command_value`]. Mapped in [`RxPdo1701`](super::pdo::RxPdo1701), [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1721`](super::pdo::RxPdo1721), [`RxPdo1722`](super::pdo::RxPdo1722) and [`RxPdo1723`](super::pdo::RxPdo1723).
         ///
         /// Cyclic position set-point of interpolated position mode. The manual states no unit.
         ///
         /// Manual: Valori di setpoint ciclici supportati; 4.8 Modalità di funzionamento supportate: Valore di comando di posizione.
         ///
         /// Hazard: The manual gives neither a unit nor a scale factor for 0x60C1:1, the position set-point. Assumed: 0x60C1:1 is a raw value without a unit (the resolution of positions depends on drive parameters that another manual describes). Manual: 1\.1 Su questo manuale; Valori di setpoint ciclici supportati.
-        pub const POSITION_COMMAND_VALUE: super::ReadWrite<i32, rt::OnCoE> = super::ReadWriteI32OnCoE::flagged_coe_object(
+        pub const POSITION_COMMAND_VALUE: ReadWrite<i32, rt::OnCoE> = ReadWriteI32OnCoE::flagged_coe_object(
             0x60C1,
             0x01,
             "Position command value",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of the object. Interpolation data record: 0x60C1.
-        pub struct InterpolationDataRecordAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
-        }
-        impl<C> InterpolationDataRecordAccessors<'_, C> {
-            /// Cyclic position set-point of interpolated position mode. The manual states no unit.
-            ///
-            /// Position command value: 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
-            /// Constant: [`POSITION_COMMAND_VALUE`]. Mapped in [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722) and [`RxPdo1723`](super::super::pdo::RxPdo1723).
-            ///
-            /// Hazard: The manual gives neither a unit nor a scale factor for 0x60C1:1, the position set-point. Assumed: 0x60C1:1 is a raw value without a unit (the resolution of positions depends on drive parameters that another manual describes). Manual: 1\.1 Su questo manuale; Valori di setpoint ciclici supportati.
-            pub fn position_command_value(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCoE> {
-                POSITION_COMMAND_VALUE.at(self.client)
-            }
+    }
+    /// Accessors for the entries of the object. Interpolation data record: 0x60C1.
+    pub struct InterpolationDataRecordAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationDataRecordAccessors<'_, C> {
+        /// Cyclic position set-point of interpolated position mode. The manual states no unit.
+        ///
+        /// Position command value: 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
+        /// Constant: [`interpolation_data_record::POSITION_COMMAND_VALUE`]. Mapped in [`RxPdo1701`](super::pdo::RxPdo1701), [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1721`](super::pdo::RxPdo1721), [`RxPdo1722`](super::pdo::RxPdo1722) and [`RxPdo1723`](super::pdo::RxPdo1723).
+        ///
+        /// Hazard: The manual gives neither a unit nor a scale factor for 0x60C1:1, the position set-point. Assumed: 0x60C1:1 is a raw value without a unit (the resolution of positions depends on drive parameters that another manual describes). Manual: 1\.1 Su questo manuale; Valori di setpoint ciclici supportati.
+        pub fn position_command_value(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCoE> {
+            interpolation_data_record::POSITION_COMMAND_VALUE.at(self.client)
         }
     }
     /// Interpolation time period.
     ///
     /// RECORD 0x60C2.
-    pub mod interpolation_time_period {
-        use ::lexibus as rt;
-        /// Interpolation time units: Physical value = raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
+    pub enum interpolation_time_period {}
+    impl interpolation_time_period {
+        /// Interpolation time units: Physical value = raw × 10^[Interpolation time index](interpolation_time_period::INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
         /// Accessor: [`InterpolationTimePeriodAccessors::interpolation_time_units`].
         ///
         /// Mantissa of the cycle time: number of time units. The exponent in sub-index 2 determines the unit.
@@ -6829,10 +6664,7 @@ pub mod objects {
         /// Note: The cycle time is a multiple of 62.5 µs. However, 0x60C2, a one-byte number times a power of ten, can express only some of these multiples. Assumed: this table does not restrict the values of 0x60C2:1 (the manual states no restriction, and 0x60C2 can express the minimum, 0.25 ms, as 25 with the exponent -5). Manual: 4\.9 Regolazione della durata del ciclo di EtherCAT.
         ///
         /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
-        pub const INTERPOLATION_TIME_UNITS: super::ReadWrite<
-            rt::Exponential<u8>,
-            rt::OnCoE,
-        > = super::ReadWriteExponentialU8OnCoE::new(
+        pub const INTERPOLATION_TIME_UNITS: ReadWrite<rt::Exponential<u8>, rt::OnCoE> = ReadWriteExponentialU8OnCoE::new(
             rt::OnCoE::coe(0x60C2, 0x01),
             "Interpolation time units",
             rt::Range::Full,
@@ -6850,46 +6682,46 @@ pub mod objects {
         /// Note: The manual states no type for 0x60C2:2. The start-up list writes 0xFD, and the text names -3 and -4. Assumed: the type of 0x60C2:2 is i8 (0xFD as a signed byte is -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT.
         ///
         /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
-        pub const INTERPOLATION_TIME_INDEX: super::ReadWrite<i8, rt::OnCoE> = super::ReadWriteI8OnCoE::coe_object(
+        pub const INTERPOLATION_TIME_INDEX: ReadWrite<i8, rt::OnCoE> = ReadWriteI8OnCoE::coe_object(
             0x60C2,
             0x02,
             "Interpolation time index",
         );
-        /// Accessors for the entries of the object. Interpolation time period: 0x60C2.
-        pub struct InterpolationTimePeriodAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation time period: 0x60C2.
+    pub struct InterpolationTimePeriodAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationTimePeriodAccessors<'_, C> {
+        /// Mantissa of the cycle time: number of time units. The exponent in sub-index 2 determines the unit.
+        ///
+        /// Interpolation time units: Physical value = raw × 10^[Interpolation time index](interpolation_time_period::INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
+        /// Constant: [`interpolation_time_period::INTERPOLATION_TIME_UNITS`].
+        ///
+        /// Note: The manual states no type for 0x60C2:1. The start-up list writes 0x02, with two digits. Assumed: the type of 0x60C2:1 is u8 (the start-up list prints two hexadecimal digits, which are one byte). Manual: 4\.6.1 Esempio: mappatura libera PDO.
+        ///
+        /// Note: Section 4.9 calls sub-index 1 of 0x60C2 "interpolation time units", and sub-index 2 "interpolation time index". The start-up list calls the same sub-indices "Cycle time" and "Cycle exp". Assumed: the sub-indices of 0x60C2 have the names of section 4.9 (section 4.9 and the start-up list print the same values, 2 and -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT.
+        ///
+        /// Note: The cycle time is a multiple of 62.5 µs. However, 0x60C2, a one-byte number times a power of ten, can express only some of these multiples. Assumed: this table does not restrict the values of 0x60C2:1 (the manual states no restriction, and 0x60C2 can express the minimum, 0.25 ms, as 25 with the exponent -5). Manual: 4\.9 Regolazione della durata del ciclo di EtherCAT.
+        ///
+        /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
+        pub fn interpolation_time_units(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Exponential<u8>, rt::OnCoE> {
+            interpolation_time_period::INTERPOLATION_TIME_UNITS.at(self.client)
         }
-        impl<C> InterpolationTimePeriodAccessors<'_, C> {
-            /// Mantissa of the cycle time: number of time units. The exponent in sub-index 2 determines the unit.
-            ///
-            /// Interpolation time units: Physical value = raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s, 0x60C2:01, UNSIGNED8, read-write.
-            /// Constant: [`INTERPOLATION_TIME_UNITS`].
-            ///
-            /// Note: The manual states no type for 0x60C2:1. The start-up list writes 0x02, with two digits. Assumed: the type of 0x60C2:1 is u8 (the start-up list prints two hexadecimal digits, which are one byte). Manual: 4\.6.1 Esempio: mappatura libera PDO.
-            ///
-            /// Note: Section 4.9 calls sub-index 1 of 0x60C2 "interpolation time units", and sub-index 2 "interpolation time index". The start-up list calls the same sub-indices "Cycle time" and "Cycle exp". Assumed: the sub-indices of 0x60C2 have the names of section 4.9 (section 4.9 and the start-up list print the same values, 2 and -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT.
-            ///
-            /// Note: The cycle time is a multiple of 62.5 µs. However, 0x60C2, a one-byte number times a power of ten, can express only some of these multiples. Assumed: this table does not restrict the values of 0x60C2:1 (the manual states no restriction, and 0x60C2 can express the minimum, 0.25 ms, as 25 with the exponent -5). Manual: 4\.9 Regolazione della durata del ciclo di EtherCAT.
-            ///
-            /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
-            pub fn interpolation_time_units(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Exponential<u8>, rt::OnCoE> {
-                INTERPOLATION_TIME_UNITS.at(self.client)
-            }
-            /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10⁻³ s (1 ms), and -4 is 10⁻⁴ s (0.1 ms).
-            ///
-            /// Interpolation time index: 0x60C2:02, INTEGER8, read-write.
-            /// Constant: [`INTERPOLATION_TIME_INDEX`].
-            ///
-            /// Note: The manual states no type for 0x60C2:2. The start-up list writes 0xFD, and the text names -3 and -4. Assumed: the type of 0x60C2:2 is i8 (0xFD as a signed byte is -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT.
-            ///
-            /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
-            pub fn interpolation_time_index(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i8, rt::OnCoE> {
-                INTERPOLATION_TIME_INDEX.at(self.client)
-            }
+        /// Exponent of the time unit of sub-index 1, to the base 10: -3 is 10⁻³ s (1 ms), and -4 is 10⁻⁴ s (0.1 ms).
+        ///
+        /// Interpolation time index: 0x60C2:02, INTEGER8, read-write.
+        /// Constant: [`interpolation_time_period::INTERPOLATION_TIME_INDEX`].
+        ///
+        /// Note: The manual states no type for 0x60C2:2. The start-up list writes 0xFD, and the text names -3 and -4. Assumed: the type of 0x60C2:2 is i8 (0xFD as a signed byte is -3). Manual: 4\.6.1 Esempio: mappatura libera PDO; 4.9 Regolazione della durata del ciclo di EtherCAT.
+        ///
+        /// Note: The manual does not state whether 0x60C2 can be mapped to PDOs. The start-up list writes 0x60C2 by SDO. Neither a fixed mapping nor the list of cyclic set-points contains 0x60C2. Assumed: 0x60C2 cannot be mapped to PDOs (section 4.7 lists the supported cyclic set-points, but not 0x60C2). Manual: Interfaccia di posizione; 4.6.1 Esempio: mappatura libera PDO; Valori di setpoint ciclici supportati; 1 more section.
+        pub fn interpolation_time_index(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i8, rt::OnCoE> {
+            interpolation_time_period::INTERPOLATION_TIME_INDEX.at(self.client)
         }
     }
     /// Following error actual value: 0x60F4:00, INTEGER32, read-only, mappable into TPDOs.
@@ -6921,38 +6753,36 @@ pub mod objects {
     /// Digital outputs.
     ///
     /// RECORD 0x60FE.
-    pub mod digital_outputs {
-        use ::lexibus as rt;
+    pub enum digital_outputs {}
+    impl digital_outputs {
         /// Physical outputs: 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
-        /// Accessor: [`DigitalOutputsAccessors::physical_outputs`]. Mapped in [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1722`](super::super::pdo::RxPdo1722) and [`RxPdo1723`](super::super::pdo::RxPdo1723).
+        /// Accessor: [`DigitalOutputsAccessors::physical_outputs`]. Mapped in [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1722`](super::pdo::RxPdo1722) and [`RxPdo1723`](super::pdo::RxPdo1723).
         ///
         /// Commanded states of the digital outputs.
         ///
         /// Description from CiA 402, 9.3.16. Manual: Valori di setpoint ciclici supportati: Uscite digitali.
         ///
         /// Hazard: The manual states no names for the bits of 0x60FE, the digital outputs, and no sub-index 2 (the bit mask). Assumed: the bits of the digital outputs have no names in this table (the manual does not describe the assignment of the outputs to bits. It also does not confirm that bit 0 controls the brake, as in CiA 402). Manual: Valori di setpoint ciclici supportati.
-        pub const PHYSICAL_OUTPUTS: super::ReadWrite<u32, rt::OnCoE> = super::ReadWriteU32OnCoE::flagged_coe_object(
+        pub const PHYSICAL_OUTPUTS: ReadWrite<u32, rt::OnCoE> = ReadWriteU32OnCoE::flagged_coe_object(
             0x60FE,
             0x01,
             "Physical outputs",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of the object. Digital outputs: 0x60FE.
-        pub struct DigitalOutputsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
-        }
-        impl<C> DigitalOutputsAccessors<'_, C> {
-            /// Commanded states of the digital outputs.
-            ///
-            /// Physical outputs: 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
-            /// Constant: [`PHYSICAL_OUTPUTS`]. Mapped in [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1722`](super::super::pdo::RxPdo1722) and [`RxPdo1723`](super::super::pdo::RxPdo1723).
-            ///
-            /// Hazard: The manual states no names for the bits of 0x60FE, the digital outputs, and no sub-index 2 (the bit mask). Assumed: the bits of the digital outputs have no names in this table (the manual does not describe the assignment of the outputs to bits. It also does not confirm that bit 0 controls the brake, as in CiA 402). Manual: Valori di setpoint ciclici supportati.
-            pub fn physical_outputs(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u32, rt::OnCoE> {
-                PHYSICAL_OUTPUTS.at(self.client)
-            }
+    }
+    /// Accessors for the entries of the object. Digital outputs: 0x60FE.
+    pub struct DigitalOutputsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DigitalOutputsAccessors<'_, C> {
+        /// Commanded states of the digital outputs.
+        ///
+        /// Physical outputs: 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
+        /// Constant: [`digital_outputs::PHYSICAL_OUTPUTS`]. Mapped in [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1722`](super::pdo::RxPdo1722) and [`RxPdo1723`](super::pdo::RxPdo1723).
+        ///
+        /// Hazard: The manual states no names for the bits of 0x60FE, the digital outputs, and no sub-index 2 (the bit mask). Assumed: the bits of the digital outputs have no names in this table (the manual does not describe the assignment of the outputs to bits. It also does not confirm that bit 0 controls the brake, as in CiA 402). Manual: Valori di setpoint ciclici supportati.
+        pub fn physical_outputs(&mut self) -> ReadWriteAccess<'_, C, u32, rt::OnCoE> {
+            digital_outputs::PHYSICAL_OUTPUTS.at(self.client)
         }
     }
     /// Velocity command value: 0x60FF:00, INTEGER32, read-write, mappable into RPDOs.

@@ -153,8 +153,8 @@ impl<C> DemoDrive<C> {
     #[doc(alias("1003", "0x1003"))]
     pub fn pre_defined_error_field(
         &mut self,
-    ) -> objects::pre_defined_error_field::PreDefinedErrorFieldAccessors<'_, C> {
-        objects::pre_defined_error_field::PreDefinedErrorFieldAccessors {
+    ) -> objects::PreDefinedErrorFieldAccessors<'_, C> {
+        objects::PreDefinedErrorFieldAccessors {
             client: &mut self.client,
         }
     }
@@ -191,10 +191,8 @@ impl<C> DemoDrive<C> {
     /// Store parameters: 0x1010.
     /// The constants for the object's entries are in [`objects::store_parameters`].
     #[doc(alias("1010", "0x1010"))]
-    pub fn store_parameters(
-        &mut self,
-    ) -> objects::store_parameters::StoreParametersAccessors<'_, C> {
-        objects::store_parameters::StoreParametersAccessors {
+    pub fn store_parameters(&mut self) -> objects::StoreParametersAccessors<'_, C> {
+        objects::StoreParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -219,10 +217,8 @@ impl<C> DemoDrive<C> {
     /// Identity object: 0x1018.
     /// The constants for the object's entries are in [`objects::identity_object`].
     #[doc(alias("1018", "0x1018"))]
-    pub fn identity_object(
-        &mut self,
-    ) -> objects::identity_object::IdentityObjectAccessors<'_, C> {
-        objects::identity_object::IdentityObjectAccessors {
+    pub fn identity_object(&mut self) -> objects::IdentityObjectAccessors<'_, C> {
+        objects::IdentityObjectAccessors {
             client: &mut self.client,
         }
     }
@@ -231,8 +227,8 @@ impl<C> DemoDrive<C> {
     #[doc(alias("1400", "0x1400"))]
     pub fn rpdo_1_communication(
         &mut self,
-    ) -> objects::rpdo_1_communication::Rpdo1CommunicationAccessors<'_, C> {
-        objects::rpdo_1_communication::Rpdo1CommunicationAccessors {
+    ) -> objects::Rpdo1CommunicationAccessors<'_, C> {
+        objects::Rpdo1CommunicationAccessors {
             client: &mut self.client,
         }
     }
@@ -241,28 +237,24 @@ impl<C> DemoDrive<C> {
     #[doc(alias("1401", "0x1401"))]
     pub fn rpdo_2_communication(
         &mut self,
-    ) -> objects::rpdo_2_communication::Rpdo2CommunicationAccessors<'_, C> {
-        objects::rpdo_2_communication::Rpdo2CommunicationAccessors {
+    ) -> objects::Rpdo2CommunicationAccessors<'_, C> {
+        objects::Rpdo2CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 mapping: 0x1600.
     /// The constants for the object's entries are in [`objects::rpdo_1_mapping`].
     #[doc(alias("1600", "0x1600"))]
-    pub fn rpdo_1_mapping(
-        &mut self,
-    ) -> objects::rpdo_1_mapping::Rpdo1MappingAccessors<'_, C> {
-        objects::rpdo_1_mapping::Rpdo1MappingAccessors {
+    pub fn rpdo_1_mapping(&mut self) -> objects::Rpdo1MappingAccessors<'_, C> {
+        objects::Rpdo1MappingAccessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 mapping: 0x1601.
     /// The constants for the object's entries are in [`objects::rpdo_2_mapping`].
     #[doc(alias("1601", "0x1601"))]
-    pub fn rpdo_2_mapping(
-        &mut self,
-    ) -> objects::rpdo_2_mapping::Rpdo2MappingAccessors<'_, C> {
-        objects::rpdo_2_mapping::Rpdo2MappingAccessors {
+    pub fn rpdo_2_mapping(&mut self) -> objects::Rpdo2MappingAccessors<'_, C> {
+        objects::Rpdo2MappingAccessors {
             client: &mut self.client,
         }
     }
@@ -271,8 +263,8 @@ impl<C> DemoDrive<C> {
     #[doc(alias("1800", "0x1800"))]
     pub fn tpdo_1_communication(
         &mut self,
-    ) -> objects::tpdo_1_communication::Tpdo1CommunicationAccessors<'_, C> {
-        objects::tpdo_1_communication::Tpdo1CommunicationAccessors {
+    ) -> objects::Tpdo1CommunicationAccessors<'_, C> {
+        objects::Tpdo1CommunicationAccessors {
             client: &mut self.client,
         }
     }
@@ -281,28 +273,24 @@ impl<C> DemoDrive<C> {
     #[doc(alias("1801", "0x1801"))]
     pub fn tpdo_2_communication(
         &mut self,
-    ) -> objects::tpdo_2_communication::Tpdo2CommunicationAccessors<'_, C> {
-        objects::tpdo_2_communication::Tpdo2CommunicationAccessors {
+    ) -> objects::Tpdo2CommunicationAccessors<'_, C> {
+        objects::Tpdo2CommunicationAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 mapping: 0x1A00.
     /// The constants for the object's entries are in [`objects::tpdo_1_mapping`].
     #[doc(alias("1A00", "0x1A00"))]
-    pub fn tpdo_1_mapping(
-        &mut self,
-    ) -> objects::tpdo_1_mapping::Tpdo1MappingAccessors<'_, C> {
-        objects::tpdo_1_mapping::Tpdo1MappingAccessors {
+    pub fn tpdo_1_mapping(&mut self) -> objects::Tpdo1MappingAccessors<'_, C> {
+        objects::Tpdo1MappingAccessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 mapping: 0x1A01.
     /// The constants for the object's entries are in [`objects::tpdo_2_mapping`].
     #[doc(alias("1A01", "0x1A01"))]
-    pub fn tpdo_2_mapping(
-        &mut self,
-    ) -> objects::tpdo_2_mapping::Tpdo2MappingAccessors<'_, C> {
-        objects::tpdo_2_mapping::Tpdo2MappingAccessors {
+    pub fn tpdo_2_mapping(&mut self) -> objects::Tpdo2MappingAccessors<'_, C> {
+        objects::Tpdo2MappingAccessors {
             client: &mut self.client,
         }
     }
@@ -338,10 +326,8 @@ impl<C> DemoDrive<C> {
     /// Analog inputs: 0x2010.
     /// The constants for the object's entries are in [`objects::analog_inputs`].
     #[doc(alias("2010", "0x2010"))]
-    pub fn analog_inputs(
-        &mut self,
-    ) -> objects::analog_inputs::AnalogInputsAccessors<'_, C> {
-        objects::analog_inputs::AnalogInputsAccessors {
+    pub fn analog_inputs(&mut self) -> objects::AnalogInputsAccessors<'_, C> {
+        objects::AnalogInputsAccessors {
             client: &mut self.client,
         }
     }
@@ -415,8 +401,8 @@ impl<C> DemoDrive<C> {
     #[doc(alias("607D", "0x607D"))]
     pub fn software_position_limit(
         &mut self,
-    ) -> objects::software_position_limit::SoftwarePositionLimitAccessors<'_, C> {
-        objects::software_position_limit::SoftwarePositionLimitAccessors {
+    ) -> objects::SoftwarePositionLimitAccessors<'_, C> {
+        objects::SoftwarePositionLimitAccessors {
             client: &mut self.client,
         }
     }
@@ -3328,6 +3314,7 @@ pub mod codes {
         }
     }
 }
+#[allow(non_camel_case_types)]
 /// A handle for every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -3414,125 +3401,118 @@ pub mod objects {
     /// Pre-defined error field.
     ///
     /// ARRAY 0x1003.
-    pub mod pre_defined_error_field {
+    pub enum pre_defined_error_field {}
+    impl pre_defined_error_field {
         /// NrOfObjects: Default 4, 0x1003:00, UNSIGNED8, read-only.
         /// Accessor: [`PreDefinedErrorFieldAccessors::nr_of_objects`].
         ///
         /// Name, type, access rights and default from the rule for compact sub-indices.
-        pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const NR_OF_OBJECTS: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1003,
             0x00,
             "NrOfObjects",
             4,
         );
         /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field1`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Description from CiA 301, 7.5.2.4.
-        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
-        > = super::ReadOnlyNamedErrorFieldEntry::object(
+        pub const PRE_DEFINED_ERROR_FIELD1: ReadOnly<super::types::ErrorFieldEntry> = ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x01,
             "Pre-defined error field1",
         );
         /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field2`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Description from CiA 301, 7.5.2.4.
-        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
-        > = super::ReadOnlyNamedErrorFieldEntry::object(
+        pub const PRE_DEFINED_ERROR_FIELD2: ReadOnly<super::types::ErrorFieldEntry> = ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x02,
             "Pre-defined error field2",
         );
         /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field3`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Description from CiA 301, 7.5.2.4.
-        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
-        > = super::ReadOnlyNamedErrorFieldEntry::object(
+        pub const PRE_DEFINED_ERROR_FIELD3: ReadOnly<super::types::ErrorFieldEntry> = ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x03,
             "Pre-defined error field3",
         );
         /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::pre_defined_error_field4`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error in the error history. Sub-index 1 contains the newest error.
         ///
         /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Description from CiA 301, 7.5.2.4.
-        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
-        > = super::ReadOnlyNamedErrorFieldEntry::object(
+        pub const PRE_DEFINED_ERROR_FIELD4: ReadOnly<super::types::ErrorFieldEntry> = ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x04,
             "Pre-defined error field4",
         );
-        /// Accessors for the entries of the object. Pre-defined error field: 0x1003.
-        pub struct PreDefinedErrorFieldAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Pre-defined error field: 0x1003.
+    pub struct PreDefinedErrorFieldAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> PreDefinedErrorFieldAccessors<'_, C> {
+        /// NrOfObjects.
+        ///
+        /// Default 4, 0x1003:00, UNSIGNED8, read-only.
+        /// Constant: [`pre_defined_error_field::NR_OF_OBJECTS`].
+        pub fn nr_of_objects(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            pre_defined_error_field::NR_OF_OBJECTS.at(self.client)
         }
-        impl<C> PreDefinedErrorFieldAccessors<'_, C> {
-            /// NrOfObjects.
-            ///
-            /// Default 4, 0x1003:00, UNSIGNED8, read-only.
-            /// Constant: [`NR_OF_OBJECTS`].
-            pub fn nr_of_objects(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
-                NR_OF_OBJECTS.at(self.client)
-            }
-            /// Error in the error history. Sub-index 1 contains the newest error.
-            ///
-            /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            pub fn pre_defined_error_field1(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
-                PRE_DEFINED_ERROR_FIELD1.at(self.client)
-            }
-            /// Error in the error history. Sub-index 1 contains the newest error.
-            ///
-            /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            pub fn pre_defined_error_field2(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
-                PRE_DEFINED_ERROR_FIELD2.at(self.client)
-            }
-            /// Error in the error history. Sub-index 1 contains the newest error.
-            ///
-            /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            pub fn pre_defined_error_field3(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
-                PRE_DEFINED_ERROR_FIELD3.at(self.client)
-            }
-            /// Error in the error history. Sub-index 1 contains the newest error.
-            ///
-            /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
-            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            pub fn pre_defined_error_field4(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
-                PRE_DEFINED_ERROR_FIELD4.at(self.client)
-            }
+        /// Error in the error history. Sub-index 1 contains the newest error.
+        ///
+        /// Pre-defined error field1: 0x1003:01, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        pub fn pre_defined_error_field1(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry> {
+            pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1.at(self.client)
+        }
+        /// Error in the error history. Sub-index 1 contains the newest error.
+        ///
+        /// Pre-defined error field2: 0x1003:02, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        pub fn pre_defined_error_field2(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry> {
+            pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2.at(self.client)
+        }
+        /// Error in the error history. Sub-index 1 contains the newest error.
+        ///
+        /// Pre-defined error field3: 0x1003:03, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        pub fn pre_defined_error_field3(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry> {
+            pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3.at(self.client)
+        }
+        /// Error in the error history. Sub-index 1 contains the newest error.
+        ///
+        /// Pre-defined error field4: 0x1003:04, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        pub fn pre_defined_error_field4(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry> {
+            pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4.at(self.client)
         }
     }
     /// COB-ID SYNC message: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
@@ -3568,54 +3548,51 @@ pub mod objects {
     /// Store parameters.
     ///
     /// ARRAY 0x1010.
-    pub mod store_parameters {
+    pub enum store_parameters {}
+    impl store_parameters {
         /// Highest sub-index supported: Default 1, 0x1010:00, UNSIGNED8, read-only.
         /// Accessor: [`StoreParametersAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1010,
             0x00,
             "Highest sub-index supported",
             1,
         );
         /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
-        /// Accessor: [`StoreParametersAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
+        /// Accessor: [`StoreParametersAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::types::StoreParameters).
         ///
         /// Writing "save" stores the parameters in non-volatile memory. Reading returns the storage capability.
         ///
         /// Values from CiA 301, 7.5.2.13.
         ///
         /// Description from CiA 301, 7.5.2.13.
-        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
-            super::super::types::StoreParameters,
-        > = super::ReadWriteNamedStoreParameters::object_with_default(
+        pub const SAVE_ALL_PARAMETERS: ReadWrite<super::types::StoreParameters> = ReadWriteNamedStoreParameters::object_with_default(
             0x1010,
             0x01,
             "Save all parameters",
-            super::super::types::StoreParameters::from_raw(1),
+            super::types::StoreParameters::from_raw(1),
         );
-        /// Accessors for the entries of the object. Store parameters: 0x1010.
-        pub struct StoreParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Store parameters: 0x1010.
+    pub struct StoreParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> StoreParametersAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 1, 0x1010:00, UNSIGNED8, read-only.
+        /// Constant: [`store_parameters::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            store_parameters::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> StoreParametersAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 1, 0x1010:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// Writing "save" stores the parameters in non-volatile memory. Reading returns the storage capability.
-            ///
-            /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
-            /// Constant: [`SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
-            pub fn save_all_parameters(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
-                SAVE_ALL_PARAMETERS.at(self.client)
-            }
+        /// Writing "save" stores the parameters in non-volatile memory. Reading returns the storage capability.
+        ///
+        /// Save all parameters: Default 1, 0x1010:01, UNSIGNED32, read-write.
+        /// Constant: [`store_parameters::SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::types::StoreParameters).
+        pub fn save_all_parameters(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::StoreParameters> {
+            store_parameters::SAVE_ALL_PARAMETERS.at(self.client)
         }
     }
     /// COB-ID EMCY: Default \$NODEID+0x80, 0x1014:00, UNSIGNED32, read-write.
@@ -3653,10 +3630,11 @@ pub mod objects {
     /// Identity object.
     ///
     /// RECORD 0x1018.
-    pub mod identity_object {
+    pub enum identity_object {}
+    impl identity_object {
         /// Highest sub-index supported: Default 4, 0x1018:00, UNSIGNED8, read-only.
         /// Accessor: [`IdentityObjectAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1018,
             0x00,
             "Highest sub-index supported",
@@ -3668,7 +3646,7 @@ pub mod objects {
         /// Vendor ID of the device.
         ///
         /// Description from CiA 301, 7.5.2.21.
-        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
+        pub const VENDOR_ID: ReadOnly<u32> = ReadOnlyU32::object_with_default(
             0x1018,
             0x01,
             "Vendor-ID",
@@ -3680,27 +3658,25 @@ pub mod objects {
         /// Product code, assigned by the vendor.
         ///
         /// Description from CiA 301, 7.5.2.21.
-        pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
+        pub const PRODUCT_CODE: ReadOnly<u32> = ReadOnlyU32::object_with_default(
             0x1018,
             0x02,
             "Product code",
             16417,
         );
         /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-        /// Accessor: [`IdentityObjectAccessors::revision_number`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
+        /// Accessor: [`IdentityObjectAccessors::revision_number`]. Value type: [`RevisionNumber`](super::types::RevisionNumber).
         ///
         /// Revision number of the product.
         ///
         /// Bits from CiA 301, 7.5.2.21.
         ///
         /// Description from CiA 301, 7.5.2.21.
-        pub const REVISION_NUMBER: super::ReadOnly<
-            super::super::types::RevisionNumber,
-        > = super::ReadOnlyNamedRevisionNumber::object_with_default(
+        pub const REVISION_NUMBER: ReadOnly<super::types::RevisionNumber> = ReadOnlyNamedRevisionNumber::object_with_default(
             0x1018,
             0x03,
             "Revision number",
-            super::super::types::RevisionNumber::from_raw(0x10000),
+            super::types::RevisionNumber::from_raw(0x10000),
         );
         /// Serial number: 0x1018:04, UNSIGNED32, read-only.
         /// Accessor: [`IdentityObjectAccessors::serial_number`].
@@ -3708,645 +3684,599 @@ pub mod objects {
         /// Serial number of the device.
         ///
         /// Description from CiA 301, 7.5.2.21.
-        pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object(
+        pub const SERIAL_NUMBER: ReadOnly<u32> = ReadOnlyU32::object(
             0x1018,
             0x04,
             "Serial number",
         );
-        /// Accessors for the entries of the object. Identity object: 0x1018.
-        pub struct IdentityObjectAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Identity object: 0x1018.
+    pub struct IdentityObjectAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> IdentityObjectAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 4, 0x1018:00, UNSIGNED8, read-only.
+        /// Constant: [`identity_object::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            identity_object::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> IdentityObjectAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 4, 0x1018:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// Vendor ID of the device.
-            ///
-            /// Vendor-ID: Default 0, 0x1018:01, UNSIGNED32, read-only.
-            /// Constant: [`VENDOR_ID`].
-            pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                VENDOR_ID.at(self.client)
-            }
-            /// Product code, assigned by the vendor.
-            ///
-            /// Product code: Default 16417, 0x1018:02, UNSIGNED32, read-only.
-            /// Constant: [`PRODUCT_CODE`].
-            pub fn product_code(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                PRODUCT_CODE.at(self.client)
-            }
-            /// Revision number of the product.
-            ///
-            /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
-            /// Constant: [`REVISION_NUMBER`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
-            pub fn revision_number(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::RevisionNumber> {
-                REVISION_NUMBER.at(self.client)
-            }
-            /// Serial number of the device.
-            ///
-            /// Serial number: 0x1018:04, UNSIGNED32, read-only.
-            /// Constant: [`SERIAL_NUMBER`].
-            pub fn serial_number(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                SERIAL_NUMBER.at(self.client)
-            }
+        /// Vendor ID of the device.
+        ///
+        /// Vendor-ID: Default 0, 0x1018:01, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::VENDOR_ID`].
+        pub fn vendor_id(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            identity_object::VENDOR_ID.at(self.client)
+        }
+        /// Product code, assigned by the vendor.
+        ///
+        /// Product code: Default 16417, 0x1018:02, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::PRODUCT_CODE`].
+        pub fn product_code(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            identity_object::PRODUCT_CODE.at(self.client)
+        }
+        /// Revision number of the product.
+        ///
+        /// Revision number: Default 0x10000, 0x1018:03, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::REVISION_NUMBER`]. Value type: [`RevisionNumber`](super::types::RevisionNumber).
+        pub fn revision_number(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::RevisionNumber> {
+            identity_object::REVISION_NUMBER.at(self.client)
+        }
+        /// Serial number of the device.
+        ///
+        /// Serial number: 0x1018:04, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::SERIAL_NUMBER`].
+        pub fn serial_number(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            identity_object::SERIAL_NUMBER.at(self.client)
         }
     }
     /// RPDO 1 communication.
     ///
     /// RECORD 0x1400.
-    pub mod rpdo_1_communication {
-        use ::lexibus as rt;
+    pub enum rpdo_1_communication {}
+    impl rpdo_1_communication {
         /// Highest sub-index supported: Default 2, 0x1400:00, UNSIGNED8, read-only.
         /// Accessor: [`Rpdo1CommunicationAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1400,
             0x00,
             "Highest sub-index supported",
             2,
         );
         /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`Rpdo1CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Rpdo1CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
         /// Bits from CiA 301, 7.5.2.35.
         ///
         /// Description from CiA 301, 7.5.2.35.
-        pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
+        pub const COB_ID: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1400, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(
-                super::super::types::ReceivePdoIdentifier::from_raw(0x200),
-            ),
+            rt::Initial::NodeId(super::types::ReceivePdoIdentifier::from_raw(0x200)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`Rpdo1CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Rpdo1CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::types::ReceiveType).
         ///
         /// Transmission type: selects when the device applies the received data.
         ///
         /// Values from CiA 301, 7.5.2.35.
         ///
         /// Description from CiA 301, 7.5.2.35.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::ReceiveType,
-        > = super::ReadWriteNamedReceiveType::object_with_default(
+        pub const TRANSMISSION_TYPE: ReadWrite<super::types::ReceiveType> = ReadWriteNamedReceiveType::object_with_default(
             0x1400,
             0x02,
             "Transmission type",
-            super::super::types::ReceiveType::from_raw(255),
+            super::types::ReceiveType::from_raw(255),
         );
-        /// Accessors for the entries of the object. RPDO 1 communication: 0x1400.
-        pub struct Rpdo1CommunicationAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RPDO 1 communication: 0x1400.
+    pub struct Rpdo1CommunicationAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Rpdo1CommunicationAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x1400:00, UNSIGNED8, read-only.
+        /// Constant: [`rpdo_1_communication::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rpdo_1_communication::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> Rpdo1CommunicationAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x1400:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// COB-ID of the RPDO.
-            ///
-            /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// Transmission type: selects when the device applies the received data.
-            ///
-            /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO.
+        ///
+        /// COB-ID: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+        /// Constant: [`rpdo_1_communication::COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            rpdo_1_communication::COB_ID.at(self.client)
+        }
+        /// Transmission type: selects when the device applies the received data.
+        ///
+        /// Transmission type: Default 255, 0x1400:02, UNSIGNED8, read-write.
+        /// Constant: [`rpdo_1_communication::TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::types::ReceiveType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceiveType> {
+            rpdo_1_communication::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RPDO 2 communication.
     ///
     /// RECORD 0x1401.
-    pub mod rpdo_2_communication {
-        use ::lexibus as rt;
+    pub enum rpdo_2_communication {}
+    impl rpdo_2_communication {
         /// Highest sub-index supported: Default 2, 0x1401:00, UNSIGNED8, read-only.
         /// Accessor: [`Rpdo2CommunicationAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1401,
             0x00,
             "Highest sub-index supported",
             2,
         );
         /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`Rpdo2CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`Rpdo2CommunicationAccessors::cob_id`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the RPDO.
         ///
         /// Bits from CiA 301, 7.5.2.35.
         ///
         /// Description from CiA 301, 7.5.2.35.
-        pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
+        pub const COB_ID: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1401, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(
-                super::super::types::ReceivePdoIdentifier::from_raw(0x300),
-            ),
+            rt::Initial::NodeId(super::types::ReceivePdoIdentifier::from_raw(0x300)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`Rpdo2CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
+        /// Accessor: [`Rpdo2CommunicationAccessors::transmission_type`]. Value type: [`ReceiveType`](super::types::ReceiveType).
         ///
         /// Transmission type: selects when the device applies the received data.
         ///
         /// Values from CiA 301, 7.5.2.35.
         ///
         /// Description from CiA 301, 7.5.2.35.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::ReceiveType,
-        > = super::ReadWriteNamedReceiveType::object_with_default(
+        pub const TRANSMISSION_TYPE: ReadWrite<super::types::ReceiveType> = ReadWriteNamedReceiveType::object_with_default(
             0x1401,
             0x02,
             "Transmission type",
-            super::super::types::ReceiveType::from_raw(1),
+            super::types::ReceiveType::from_raw(1),
         );
-        /// Accessors for the entries of the object. RPDO 2 communication: 0x1401.
-        pub struct Rpdo2CommunicationAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RPDO 2 communication: 0x1401.
+    pub struct Rpdo2CommunicationAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Rpdo2CommunicationAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x1401:00, UNSIGNED8, read-only.
+        /// Constant: [`rpdo_2_communication::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rpdo_2_communication::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> Rpdo2CommunicationAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x1401:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// COB-ID of the RPDO.
-            ///
-            /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// Transmission type: selects when the device applies the received data.
-            ///
-            /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::super::types::ReceiveType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO.
+        ///
+        /// COB-ID: Default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
+        /// Constant: [`rpdo_2_communication::COB_ID`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            rpdo_2_communication::COB_ID.at(self.client)
+        }
+        /// Transmission type: selects when the device applies the received data.
+        ///
+        /// Transmission type: Default 1, 0x1401:02, UNSIGNED8, read-write.
+        /// Constant: [`rpdo_2_communication::TRANSMISSION_TYPE`]. Value type: [`ReceiveType`](super::types::ReceiveType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceiveType> {
+            rpdo_2_communication::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RPDO 1 mapping.
     ///
     /// RECORD 0x1600.
-    pub mod rpdo_1_mapping {
+    pub enum rpdo_1_mapping {}
+    impl rpdo_1_mapping {
         /// Number of mapped objects: Default 1, 0x1600:00, UNSIGNED8, read-write.
         /// Accessor: [`Rpdo1MappingAccessors::number_of_mapped_objects`].
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: ReadWrite<u8> = ReadWriteU8::object_with_default(
             0x1600,
             0x00,
             "Number of mapped objects",
             1,
         );
         /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`Rpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Rpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.36.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_1: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1600,
             0x01,
             "Mapped object 1",
-            super::super::types::MappingEntry::from_raw(0x60400010),
+            super::types::MappingEntry::from_raw(0x60400010),
         );
-        /// Accessors for the entries of the object. RPDO 1 mapping: 0x1600.
-        pub struct Rpdo1MappingAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RPDO 1 mapping: 0x1600.
+    pub struct Rpdo1MappingAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Rpdo1MappingAccessors<'_, C> {
+        /// Number of mapped objects.
+        ///
+        /// Default 1, 0x1600:00, UNSIGNED8, read-write.
+        /// Constant: [`rpdo_1_mapping::NUMBER_OF_MAPPED_OBJECTS`].
+        pub fn number_of_mapped_objects(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rpdo_1_mapping::NUMBER_OF_MAPPED_OBJECTS.at(self.client)
         }
-        impl<C> Rpdo1MappingAccessors<'_, C> {
-            /// Number of mapped objects.
-            ///
-            /// Default 1, 0x1600:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
-            pub fn number_of_mapped_objects(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS.at(self.client)
-            }
-            /// Object mapped to the RPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_1.at(self.client)
-            }
+        /// Object mapped to the RPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1: Default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
+        /// Constant: [`rpdo_1_mapping::MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            rpdo_1_mapping::MAPPED_OBJECT_1.at(self.client)
         }
     }
     /// RPDO 2 mapping.
     ///
     /// RECORD 0x1601.
-    pub mod rpdo_2_mapping {
+    pub enum rpdo_2_mapping {}
+    impl rpdo_2_mapping {
         /// Number of mapped objects: Default 2, 0x1601:00, UNSIGNED8, read-write.
         /// Accessor: [`Rpdo2MappingAccessors::number_of_mapped_objects`].
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: ReadWrite<u8> = ReadWriteU8::object_with_default(
             0x1601,
             0x00,
             "Number of mapped objects",
             2,
         );
         /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.36.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_1: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x01,
             "Mapped object 1",
-            super::super::types::MappingEntry::from_raw(0x60400010),
+            super::types::MappingEntry::from_raw(0x60400010),
         );
         /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Rpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the RPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.36.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_2: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x02,
             "Mapped object 2",
-            super::super::types::MappingEntry::from_raw(0x607A0020),
+            super::types::MappingEntry::from_raw(0x607A0020),
         );
-        /// Accessors for the entries of the object. RPDO 2 mapping: 0x1601.
-        pub struct Rpdo2MappingAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RPDO 2 mapping: 0x1601.
+    pub struct Rpdo2MappingAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Rpdo2MappingAccessors<'_, C> {
+        /// Number of mapped objects.
+        ///
+        /// Default 2, 0x1601:00, UNSIGNED8, read-write.
+        /// Constant: [`rpdo_2_mapping::NUMBER_OF_MAPPED_OBJECTS`].
+        pub fn number_of_mapped_objects(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rpdo_2_mapping::NUMBER_OF_MAPPED_OBJECTS.at(self.client)
         }
-        impl<C> Rpdo2MappingAccessors<'_, C> {
-            /// Number of mapped objects.
-            ///
-            /// Default 2, 0x1601:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
-            pub fn number_of_mapped_objects(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS.at(self.client)
-            }
-            /// Object mapped to the RPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Object mapped to the RPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_2.at(self.client)
-            }
+        /// Object mapped to the RPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1: Default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
+        /// Constant: [`rpdo_2_mapping::MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            rpdo_2_mapping::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Object mapped to the RPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2: Default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
+        /// Constant: [`rpdo_2_mapping::MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            rpdo_2_mapping::MAPPED_OBJECT_2.at(self.client)
         }
     }
     /// TPDO 1 communication.
     ///
     /// RECORD 0x1800.
-    pub mod tpdo_1_communication {
-        use ::lexibus as rt;
+    pub enum tpdo_1_communication {}
+    impl tpdo_1_communication {
         /// Highest sub-index supported: Default 2, 0x1800:00, UNSIGNED8, read-only.
         /// Accessor: [`Tpdo1CommunicationAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1800,
             0x00,
             "Highest sub-index supported",
             2,
         );
         /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`Tpdo1CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Tpdo1CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
         /// Bits from CiA 301, 7.5.2.37.
         ///
         /// Description from CiA 301, 7.5.2.37.
-        pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
+        pub const COB_ID: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1800, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(
-                super::super::types::TransmitPdoIdentifier::from_raw(0x180),
-            ),
+            rt::Initial::NodeId(super::types::TransmitPdoIdentifier::from_raw(0x180)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`Tpdo1CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Tpdo1CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::types::TransmitType).
         ///
         /// Transmission type: selects when the TPDO is transmitted.
         ///
         /// Values from CiA 301, 7.5.2.37.
         ///
         /// Description from CiA 301, 7.5.2.37.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmitType,
-        > = super::ReadWriteNamedTransmitType::object_with_default(
+        pub const TRANSMISSION_TYPE: ReadWrite<super::types::TransmitType> = ReadWriteNamedTransmitType::object_with_default(
             0x1800,
             0x02,
             "Transmission type",
-            super::super::types::TransmitType::from_raw(255),
+            super::types::TransmitType::from_raw(255),
         );
-        /// Accessors for the entries of the object. TPDO 1 communication: 0x1800.
-        pub struct Tpdo1CommunicationAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TPDO 1 communication: 0x1800.
+    pub struct Tpdo1CommunicationAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Tpdo1CommunicationAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x1800:00, UNSIGNED8, read-only.
+        /// Constant: [`tpdo_1_communication::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            tpdo_1_communication::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> Tpdo1CommunicationAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x1800:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// COB-ID of the TPDO.
-            ///
-            /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// Transmission type: selects when the TPDO is transmitted.
-            ///
-            /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the TPDO.
+        ///
+        /// COB-ID: Default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
+        /// Constant: [`tpdo_1_communication::COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            tpdo_1_communication::COB_ID.at(self.client)
+        }
+        /// Transmission type: selects when the TPDO is transmitted.
+        ///
+        /// Transmission type: Default 255, 0x1800:02, UNSIGNED8, read-write.
+        /// Constant: [`tpdo_1_communication::TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::types::TransmitType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitType> {
+            tpdo_1_communication::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// TPDO 2 communication.
     ///
     /// RECORD 0x1801.
-    pub mod tpdo_2_communication {
-        use ::lexibus as rt;
+    pub enum tpdo_2_communication {}
+    impl tpdo_2_communication {
         /// Highest sub-index supported: Default 2, 0x1801:00, UNSIGNED8, read-only.
         /// Accessor: [`Tpdo2CommunicationAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x1801,
             0x00,
             "Highest sub-index supported",
             2,
         );
         /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`Tpdo2CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`Tpdo2CommunicationAccessors::cob_id`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the TPDO.
         ///
         /// Bits from CiA 301, 7.5.2.37.
         ///
         /// Description from CiA 301, 7.5.2.37.
-        pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
+        pub const COB_ID: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1801, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(
-                super::super::types::TransmitPdoIdentifier::from_raw(0x280),
-            ),
+            rt::Initial::NodeId(super::types::TransmitPdoIdentifier::from_raw(0x280)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`Tpdo2CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::super::types::TransmitType).
+        /// Accessor: [`Tpdo2CommunicationAccessors::transmission_type`]. Value type: [`TransmitType`](super::types::TransmitType).
         ///
         /// Transmission type: selects when the TPDO is transmitted.
         ///
         /// Values from CiA 301, 7.5.2.37.
         ///
         /// Description from CiA 301, 7.5.2.37.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmitType,
-        > = super::ReadWriteNamedTransmitType::object_with_default(
+        pub const TRANSMISSION_TYPE: ReadWrite<super::types::TransmitType> = ReadWriteNamedTransmitType::object_with_default(
             0x1801,
             0x02,
             "Transmission type",
-            super::super::types::TransmitType::from_raw(1),
+            super::types::TransmitType::from_raw(1),
         );
-        /// Accessors for the entries of the object. TPDO 2 communication: 0x1801.
-        pub struct Tpdo2CommunicationAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TPDO 2 communication: 0x1801.
+    pub struct Tpdo2CommunicationAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Tpdo2CommunicationAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x1801:00, UNSIGNED8, read-only.
+        /// Constant: [`tpdo_2_communication::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            tpdo_2_communication::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> Tpdo2CommunicationAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x1801:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// COB-ID of the TPDO.
-            ///
-            /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// Transmission type: selects when the TPDO is transmitted.
-            ///
-            /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::super::types::TransmitType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the TPDO.
+        ///
+        /// COB-ID: Default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
+        /// Constant: [`tpdo_2_communication::COB_ID`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            tpdo_2_communication::COB_ID.at(self.client)
+        }
+        /// Transmission type: selects when the TPDO is transmitted.
+        ///
+        /// Transmission type: Default 1, 0x1801:02, UNSIGNED8, read-write.
+        /// Constant: [`tpdo_2_communication::TRANSMISSION_TYPE`]. Value type: [`TransmitType`](super::types::TransmitType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitType> {
+            tpdo_2_communication::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// TPDO 1 mapping.
     ///
     /// RECORD 0x1A00.
-    pub mod tpdo_1_mapping {
+    pub enum tpdo_1_mapping {}
+    impl tpdo_1_mapping {
         /// Number of mapped objects: Default 1, 0x1A00:00, UNSIGNED8, read-write.
         /// Accessor: [`Tpdo1MappingAccessors::number_of_mapped_objects`].
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: ReadWrite<u8> = ReadWriteU8::object_with_default(
             0x1A00,
             0x00,
             "Number of mapped objects",
             1,
         );
         /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`Tpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Tpdo1MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.38.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_1: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1A00,
             0x01,
             "Mapped object 1",
-            super::super::types::MappingEntry::from_raw(0x60410010),
+            super::types::MappingEntry::from_raw(0x60410010),
         );
-        /// Accessors for the entries of the object. TPDO 1 mapping: 0x1A00.
-        pub struct Tpdo1MappingAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TPDO 1 mapping: 0x1A00.
+    pub struct Tpdo1MappingAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Tpdo1MappingAccessors<'_, C> {
+        /// Number of mapped objects.
+        ///
+        /// Default 1, 0x1A00:00, UNSIGNED8, read-write.
+        /// Constant: [`tpdo_1_mapping::NUMBER_OF_MAPPED_OBJECTS`].
+        pub fn number_of_mapped_objects(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            tpdo_1_mapping::NUMBER_OF_MAPPED_OBJECTS.at(self.client)
         }
-        impl<C> Tpdo1MappingAccessors<'_, C> {
-            /// Number of mapped objects.
-            ///
-            /// Default 1, 0x1A00:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
-            pub fn number_of_mapped_objects(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS.at(self.client)
-            }
-            /// Object mapped to the TPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_1.at(self.client)
-            }
+        /// Object mapped to the TPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1: Default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
+        /// Constant: [`tpdo_1_mapping::MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            tpdo_1_mapping::MAPPED_OBJECT_1.at(self.client)
         }
     }
     /// TPDO 2 mapping.
     ///
     /// RECORD 0x1A01.
-    pub mod tpdo_2_mapping {
+    pub enum tpdo_2_mapping {}
+    impl tpdo_2_mapping {
         /// Number of mapped objects: Default 2, 0x1A01:00, UNSIGNED8, read-write.
         /// Accessor: [`Tpdo2MappingAccessors::number_of_mapped_objects`].
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: ReadWrite<u8> = ReadWriteU8::object_with_default(
             0x1A01,
             0x00,
             "Number of mapped objects",
             2,
         );
         /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.38.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_1: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x01,
             "Mapped object 1",
-            super::super::types::MappingEntry::from_raw(0x60410010),
+            super::types::MappingEntry::from_raw(0x60410010),
         );
         /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
+        /// Accessor: [`Tpdo2MappingAccessors::mapped_object_2`]. Value type: [`MappingEntry`](super::types::MappingEntry).
         ///
         /// Object mapped to the TPDO: index, sub-index and length in bits.
         ///
         /// Bits from CiA 301, 7.5.2.36, 7.5.2.38.
         ///
         /// Description from CiA 301, 7.5.2.38.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
+        pub const MAPPED_OBJECT_2: ReadWrite<super::types::MappingEntry> = ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x02,
             "Mapped object 2",
-            super::super::types::MappingEntry::from_raw(0x60640020),
+            super::types::MappingEntry::from_raw(0x60640020),
         );
-        /// Accessors for the entries of the object. TPDO 2 mapping: 0x1A01.
-        pub struct Tpdo2MappingAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TPDO 2 mapping: 0x1A01.
+    pub struct Tpdo2MappingAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Tpdo2MappingAccessors<'_, C> {
+        /// Number of mapped objects.
+        ///
+        /// Default 2, 0x1A01:00, UNSIGNED8, read-write.
+        /// Constant: [`tpdo_2_mapping::NUMBER_OF_MAPPED_OBJECTS`].
+        pub fn number_of_mapped_objects(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            tpdo_2_mapping::NUMBER_OF_MAPPED_OBJECTS.at(self.client)
         }
-        impl<C> Tpdo2MappingAccessors<'_, C> {
-            /// Number of mapped objects.
-            ///
-            /// Default 2, 0x1A01:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
-            pub fn number_of_mapped_objects(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS.at(self.client)
-            }
-            /// Object mapped to the TPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Object mapped to the TPDO: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::super::types::MappingEntry).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
-                MAPPED_OBJECT_2.at(self.client)
-            }
+        /// Object mapped to the TPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1: Default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
+        /// Constant: [`tpdo_2_mapping::MAPPED_OBJECT_1`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            tpdo_2_mapping::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Object mapped to the TPDO: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2: Default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
+        /// Constant: [`tpdo_2_mapping::MAPPED_OBJECT_2`]. Value type: [`MappingEntry`](super::types::MappingEntry).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappingEntry> {
+            tpdo_2_mapping::MAPPED_OBJECT_2.at(self.client)
         }
     }
     /// Motor temperature: 0x2000:00, REAL32, read-only.
@@ -4374,11 +4304,11 @@ pub mod objects {
     /// Analog inputs.
     ///
     /// ARRAY 0x2010.
-    pub mod analog_inputs {
-        use ::lexibus as rt;
+    pub enum analog_inputs {}
+    impl analog_inputs {
         /// Highest sub-index supported: Default 2, 0x2010:00, UNSIGNED8, read-only.
         /// Accessor: [`AnalogInputsAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x2010,
             0x00,
             "Highest sub-index supported",
@@ -4386,7 +4316,7 @@ pub mod objects {
         );
         /// Input 1: 0x2010:01, INTEGER16, read-only, mappable into TPDOs.
         /// Accessor: [`AnalogInputsAccessors::input_1`].
-        pub const INPUT_1: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
+        pub const INPUT_1: ReadOnly<i16> = ReadOnlyI16::flagged_object(
             0x2010,
             0x01,
             "Input 1",
@@ -4394,40 +4324,38 @@ pub mod objects {
         );
         /// Input 2: 0x2010:02, INTEGER16, read-only, mappable into TPDOs.
         /// Accessor: [`AnalogInputsAccessors::input_2`].
-        pub const INPUT_2: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
+        pub const INPUT_2: ReadOnly<i16> = ReadOnlyI16::flagged_object(
             0x2010,
             0x02,
             "Input 2",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of the object. Analog inputs: 0x2010.
-        pub struct AnalogInputsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Analog inputs: 0x2010.
+    pub struct AnalogInputsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> AnalogInputsAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x2010:00, UNSIGNED8, read-only.
+        /// Constant: [`analog_inputs::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            analog_inputs::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> AnalogInputsAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x2010:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// Input 1.
-            ///
-            /// 0x2010:01, INTEGER16, read-only, mappable into TPDOs.
-            /// Constant: [`INPUT_1`].
-            pub fn input_1(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
-                INPUT_1.at(self.client)
-            }
-            /// Input 2.
-            ///
-            /// 0x2010:02, INTEGER16, read-only, mappable into TPDOs.
-            /// Constant: [`INPUT_2`].
-            pub fn input_2(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
-                INPUT_2.at(self.client)
-            }
+        /// Input 1.
+        ///
+        /// 0x2010:01, INTEGER16, read-only, mappable into TPDOs.
+        /// Constant: [`analog_inputs::INPUT_1`].
+        pub fn input_1(&mut self) -> ReadOnlyAccess<'_, C, i16> {
+            analog_inputs::INPUT_1.at(self.client)
+        }
+        /// Input 2.
+        ///
+        /// 0x2010:02, INTEGER16, read-only, mappable into TPDOs.
+        /// Constant: [`analog_inputs::INPUT_2`].
+        pub fn input_2(&mut self) -> ReadOnlyAccess<'_, C, i16> {
+            analog_inputs::INPUT_2.at(self.client)
         }
     }
     /// Encoder counts: 0x2020:00, INTEGER24, read-only.
@@ -4517,10 +4445,11 @@ pub mod objects {
     /// Software position limit.
     ///
     /// ARRAY 0x607D.
-    pub mod software_position_limit {
+    pub enum software_position_limit {}
+    impl software_position_limit {
         /// Highest sub-index supported: Default 2, 0x607D:00, UNSIGNED8, read-only.
         /// Accessor: [`SoftwarePositionLimitAccessors::highest_sub_index_supported`].
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: ReadOnly<u8> = ReadOnlyU8::object_with_default(
             0x607D,
             0x00,
             "Highest sub-index supported",
@@ -4528,7 +4457,7 @@ pub mod objects {
         );
         /// Min position limit: Default -1000000, 0x607D:01, INTEGER32, read-write.
         /// Accessor: [`SoftwarePositionLimitAccessors::min_position_limit`].
-        pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
+        pub const MIN_POSITION_LIMIT: ReadWrite<i32> = ReadWriteI32::object_with_default(
             0x607D,
             0x01,
             "Min position limit",
@@ -4536,40 +4465,38 @@ pub mod objects {
         );
         /// Max position limit: Default 1000000, 0x607D:02, INTEGER32, read-write.
         /// Accessor: [`SoftwarePositionLimitAccessors::max_position_limit`].
-        pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
+        pub const MAX_POSITION_LIMIT: ReadWrite<i32> = ReadWriteI32::object_with_default(
             0x607D,
             0x02,
             "Max position limit",
             1000000,
         );
-        /// Accessors for the entries of the object. Software position limit: 0x607D.
-        pub struct SoftwarePositionLimitAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Software position limit: 0x607D.
+    pub struct SoftwarePositionLimitAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> SoftwarePositionLimitAccessors<'_, C> {
+        /// Highest sub-index supported.
+        ///
+        /// Default 2, 0x607D:00, UNSIGNED8, read-only.
+        /// Constant: [`software_position_limit::HIGHEST_SUB_INDEX_SUPPORTED`].
+        pub fn highest_sub_index_supported(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            software_position_limit::HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
         }
-        impl<C> SoftwarePositionLimitAccessors<'_, C> {
-            /// Highest sub-index supported.
-            ///
-            /// Default 2, 0x607D:00, UNSIGNED8, read-only.
-            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
-            pub fn highest_sub_index_supported(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
-            }
-            /// Min position limit.
-            ///
-            /// Default -1000000, 0x607D:01, INTEGER32, read-write.
-            /// Constant: [`MIN_POSITION_LIMIT`].
-            pub fn min_position_limit(&mut self) -> super::ReadWriteAccess<'_, C, i32> {
-                MIN_POSITION_LIMIT.at(self.client)
-            }
-            /// Max position limit.
-            ///
-            /// Default 1000000, 0x607D:02, INTEGER32, read-write.
-            /// Constant: [`MAX_POSITION_LIMIT`].
-            pub fn max_position_limit(&mut self) -> super::ReadWriteAccess<'_, C, i32> {
-                MAX_POSITION_LIMIT.at(self.client)
-            }
+        /// Min position limit.
+        ///
+        /// Default -1000000, 0x607D:01, INTEGER32, read-write.
+        /// Constant: [`software_position_limit::MIN_POSITION_LIMIT`].
+        pub fn min_position_limit(&mut self) -> ReadWriteAccess<'_, C, i32> {
+            software_position_limit::MIN_POSITION_LIMIT.at(self.client)
+        }
+        /// Max position limit.
+        ///
+        /// Default 1000000, 0x607D:02, INTEGER32, read-write.
+        /// Constant: [`software_position_limit::MAX_POSITION_LIMIT`].
+        pub fn max_position_limit(&mut self) -> ReadWriteAccess<'_, C, i32> {
+            software_position_limit::MAX_POSITION_LIMIT.at(self.client)
         }
     }
     /// Profile velocity: Range 0 to 500000, default 1000, 0x6081:00, UNSIGNED32, read-write, mappable into any PDO.

@@ -3353,8 +3353,8 @@ impl<C> Eco<C> {
     #[doc(alias("1003", "0x1003"))]
     pub fn pre_defined_error_field(
         &mut self,
-    ) -> objects::pre_defined_error_field::PreDefinedErrorFieldAccessors<'_, C> {
-        objects::pre_defined_error_field::PreDefinedErrorFieldAccessors {
+    ) -> objects::PreDefinedErrorFieldAccessors<'_, C> {
+        objects::PreDefinedErrorFieldAccessors {
             client: &mut self.client,
         }
     }
@@ -3423,8 +3423,8 @@ impl<C> Eco<C> {
     #[doc(alias("1010", "0x1010"))]
     pub fn store_parameter_field(
         &mut self,
-    ) -> objects::store_parameter_field::StoreParameterFieldAccessors<'_, C> {
-        objects::store_parameter_field::StoreParameterFieldAccessors {
+    ) -> objects::StoreParameterFieldAccessors<'_, C> {
+        objects::StoreParameterFieldAccessors {
             client: &mut self.client,
         }
     }
@@ -3461,10 +3461,8 @@ impl<C> Eco<C> {
     /// Identity Object: 0x1018.
     /// The constants for the object's entries are in [`objects::identity_object`].
     #[doc(alias("1018", "0x1018"))]
-    pub fn identity_object(
-        &mut self,
-    ) -> objects::identity_object::IdentityObjectAccessors<'_, C> {
-        objects::identity_object::IdentityObjectAccessors {
+    pub fn identity_object(&mut self) -> objects::IdentityObjectAccessors<'_, C> {
+        objects::IdentityObjectAccessors {
             client: &mut self.client,
         }
     }
@@ -3473,11 +3471,8 @@ impl<C> Eco<C> {
     #[doc(alias("1400", "0x1400"))]
     pub fn receive_pdo_1_communication_parameter(
         &mut self,
-    ) -> objects::receive_pdo_1_communication_parameter::ReceivePdo1CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_1_communication_parameter::ReceivePdo1CommunicationParameterAccessors {
+    ) -> objects::ReceivePdo1CommunicationParameterAccessors<'_, C> {
+        objects::ReceivePdo1CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3486,11 +3481,8 @@ impl<C> Eco<C> {
     #[doc(alias("1401", "0x1401"))]
     pub fn receive_pdo_2_communication_parameter(
         &mut self,
-    ) -> objects::receive_pdo_2_communication_parameter::ReceivePdo2CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_2_communication_parameter::ReceivePdo2CommunicationParameterAccessors {
+    ) -> objects::ReceivePdo2CommunicationParameterAccessors<'_, C> {
+        objects::ReceivePdo2CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3499,11 +3491,8 @@ impl<C> Eco<C> {
     #[doc(alias("1402", "0x1402"))]
     pub fn receive_pdo_3_communication_parameter(
         &mut self,
-    ) -> objects::receive_pdo_3_communication_parameter::ReceivePdo3CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_3_communication_parameter::ReceivePdo3CommunicationParameterAccessors {
+    ) -> objects::ReceivePdo3CommunicationParameterAccessors<'_, C> {
+        objects::ReceivePdo3CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3512,11 +3501,8 @@ impl<C> Eco<C> {
     #[doc(alias("1403", "0x1403"))]
     pub fn receive_pdo_4_communication_parameter(
         &mut self,
-    ) -> objects::receive_pdo_4_communication_parameter::ReceivePdo4CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_4_communication_parameter::ReceivePdo4CommunicationParameterAccessors {
+    ) -> objects::ReceivePdo4CommunicationParameterAccessors<'_, C> {
+        objects::ReceivePdo4CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3525,11 +3511,8 @@ impl<C> Eco<C> {
     #[doc(alias("1600", "0x1600"))]
     pub fn receive_pdo_1_mapping_parameter(
         &mut self,
-    ) -> objects::receive_pdo_1_mapping_parameter::ReceivePdo1MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_1_mapping_parameter::ReceivePdo1MappingParameterAccessors {
+    ) -> objects::ReceivePdo1MappingParameterAccessors<'_, C> {
+        objects::ReceivePdo1MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3538,11 +3521,8 @@ impl<C> Eco<C> {
     #[doc(alias("1601", "0x1601"))]
     pub fn receive_pdo_2_mapping_parameter(
         &mut self,
-    ) -> objects::receive_pdo_2_mapping_parameter::ReceivePdo2MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_2_mapping_parameter::ReceivePdo2MappingParameterAccessors {
+    ) -> objects::ReceivePdo2MappingParameterAccessors<'_, C> {
+        objects::ReceivePdo2MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3551,11 +3531,8 @@ impl<C> Eco<C> {
     #[doc(alias("1602", "0x1602"))]
     pub fn receive_pdo_3_mapping_parameter(
         &mut self,
-    ) -> objects::receive_pdo_3_mapping_parameter::ReceivePdo3MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_3_mapping_parameter::ReceivePdo3MappingParameterAccessors {
+    ) -> objects::ReceivePdo3MappingParameterAccessors<'_, C> {
+        objects::ReceivePdo3MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3564,11 +3541,8 @@ impl<C> Eco<C> {
     #[doc(alias("1603", "0x1603"))]
     pub fn receive_pdo_4_mapping_parameter(
         &mut self,
-    ) -> objects::receive_pdo_4_mapping_parameter::ReceivePdo4MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::receive_pdo_4_mapping_parameter::ReceivePdo4MappingParameterAccessors {
+    ) -> objects::ReceivePdo4MappingParameterAccessors<'_, C> {
+        objects::ReceivePdo4MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3577,11 +3551,8 @@ impl<C> Eco<C> {
     #[doc(alias("1800", "0x1800"))]
     pub fn transmit_pdo_1_communication_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_1_communication_parameter::TransmitPdo1CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_1_communication_parameter::TransmitPdo1CommunicationParameterAccessors {
+    ) -> objects::TransmitPdo1CommunicationParameterAccessors<'_, C> {
+        objects::TransmitPdo1CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3590,11 +3561,8 @@ impl<C> Eco<C> {
     #[doc(alias("1801", "0x1801"))]
     pub fn transmit_pdo_2_communication_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_2_communication_parameter::TransmitPdo2CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_2_communication_parameter::TransmitPdo2CommunicationParameterAccessors {
+    ) -> objects::TransmitPdo2CommunicationParameterAccessors<'_, C> {
+        objects::TransmitPdo2CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3603,11 +3571,8 @@ impl<C> Eco<C> {
     #[doc(alias("1802", "0x1802"))]
     pub fn transmit_pdo_3_communication_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_3_communication_parameter::TransmitPdo3CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_3_communication_parameter::TransmitPdo3CommunicationParameterAccessors {
+    ) -> objects::TransmitPdo3CommunicationParameterAccessors<'_, C> {
+        objects::TransmitPdo3CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3616,11 +3581,8 @@ impl<C> Eco<C> {
     #[doc(alias("1803", "0x1803"))]
     pub fn transmit_pdo_4_communication_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_4_communication_parameter::TransmitPdo4CommunicationParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_4_communication_parameter::TransmitPdo4CommunicationParameterAccessors {
+    ) -> objects::TransmitPdo4CommunicationParameterAccessors<'_, C> {
+        objects::TransmitPdo4CommunicationParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3629,11 +3591,8 @@ impl<C> Eco<C> {
     #[doc(alias("1A00", "0x1A00"))]
     pub fn transmit_pdo_1_mapping_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_1_mapping_parameter::TransmitPdo1MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_1_mapping_parameter::TransmitPdo1MappingParameterAccessors {
+    ) -> objects::TransmitPdo1MappingParameterAccessors<'_, C> {
+        objects::TransmitPdo1MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3642,11 +3601,8 @@ impl<C> Eco<C> {
     #[doc(alias("1A01", "0x1A01"))]
     pub fn transmit_pdo_2_mapping_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_2_mapping_parameter::TransmitPdo2MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_2_mapping_parameter::TransmitPdo2MappingParameterAccessors {
+    ) -> objects::TransmitPdo2MappingParameterAccessors<'_, C> {
+        objects::TransmitPdo2MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3655,11 +3611,8 @@ impl<C> Eco<C> {
     #[doc(alias("1A02", "0x1A02"))]
     pub fn transmit_pdo_3_mapping_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_3_mapping_parameter::TransmitPdo3MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_3_mapping_parameter::TransmitPdo3MappingParameterAccessors {
+    ) -> objects::TransmitPdo3MappingParameterAccessors<'_, C> {
+        objects::TransmitPdo3MappingParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -3668,31 +3621,24 @@ impl<C> Eco<C> {
     #[doc(alias("1A03", "0x1A03"))]
     pub fn transmit_pdo_4_mapping_parameter(
         &mut self,
-    ) -> objects::transmit_pdo_4_mapping_parameter::TransmitPdo4MappingParameterAccessors<
-        '_,
-        C,
-    > {
-        objects::transmit_pdo_4_mapping_parameter::TransmitPdo4MappingParameterAccessors {
+    ) -> objects::TransmitPdo4MappingParameterAccessors<'_, C> {
+        objects::TransmitPdo4MappingParameterAccessors {
             client: &mut self.client,
         }
     }
     /// RxPDO Assign: 0x1C12.
     /// The constants for the object's entries are in [`objects::rx_pdo_assign`].
     #[doc(alias("1C12", "0x1C12"))]
-    pub fn rx_pdo_assign(
-        &mut self,
-    ) -> objects::rx_pdo_assign::RxPdoAssignAccessors<'_, C> {
-        objects::rx_pdo_assign::RxPdoAssignAccessors {
+    pub fn rx_pdo_assign(&mut self) -> objects::RxPdoAssignAccessors<'_, C> {
+        objects::RxPdoAssignAccessors {
             client: &mut self.client,
         }
     }
     /// TxPDO Assign: 0x1C13.
     /// The constants for the object's entries are in [`objects::tx_pdo_assign`].
     #[doc(alias("1C13", "0x1C13"))]
-    pub fn tx_pdo_assign(
-        &mut self,
-    ) -> objects::tx_pdo_assign::TxPdoAssignAccessors<'_, C> {
-        objects::tx_pdo_assign::TxPdoAssignAccessors {
+    pub fn tx_pdo_assign(&mut self) -> objects::TxPdoAssignAccessors<'_, C> {
+        objects::TxPdoAssignAccessors {
             client: &mut self.client,
         }
     }
@@ -3704,8 +3650,8 @@ impl<C> Eco<C> {
     #[doc(alias("2000", "0x2000"))]
     pub fn drive_parameters_settings(
         &mut self,
-    ) -> objects::drive_parameters_settings::DriveParametersSettingsAccessors<'_, C> {
-        objects::drive_parameters_settings::DriveParametersSettingsAccessors {
+    ) -> objects::DriveParametersSettingsAccessors<'_, C> {
+        objects::DriveParametersSettingsAccessors {
             client: &mut self.client,
         }
     }
@@ -3746,10 +3692,8 @@ impl<C> Eco<C> {
     /// Drive Variable Read: 0x2005.
     /// The constants for the object's entries are in [`objects::drive_variable_read`].
     #[doc(alias("2005", "0x2005"))]
-    pub fn drive_variable_read(
-        &mut self,
-    ) -> objects::drive_variable_read::DriveVariableReadAccessors<'_, C> {
-        objects::drive_variable_read::DriveVariableReadAccessors {
+    pub fn drive_variable_read(&mut self) -> objects::DriveVariableReadAccessors<'_, C> {
+        objects::DriveVariableReadAccessors {
             client: &mut self.client,
         }
     }
@@ -3758,8 +3702,8 @@ impl<C> Eco<C> {
     #[doc(alias("2006", "0x2006"))]
     pub fn drive_variable_write(
         &mut self,
-    ) -> objects::drive_variable_write::DriveVariableWriteAccessors<'_, C> {
-        objects::drive_variable_write::DriveVariableWriteAccessors {
+    ) -> objects::DriveVariableWriteAccessors<'_, C> {
+        objects::DriveVariableWriteAccessors {
             client: &mut self.client,
         }
     }
@@ -3837,20 +3781,16 @@ impl<C> Eco<C> {
     /// Feed Constant: 0x6092.
     /// The constants for the object's entries are in [`objects::feed_constant`].
     #[doc(alias("6092", "0x6092"))]
-    pub fn feed_constant(
-        &mut self,
-    ) -> objects::feed_constant::FeedConstantAccessors<'_, C> {
-        objects::feed_constant::FeedConstantAccessors {
+    pub fn feed_constant(&mut self) -> objects::FeedConstantAccessors<'_, C> {
+        objects::FeedConstantAccessors {
             client: &mut self.client,
         }
     }
     /// Homing Speeds: 0x6099.
     /// The constants for the object's entries are in [`objects::homing_speeds`].
     #[doc(alias("6099", "0x6099"))]
-    pub fn homing_speeds(
-        &mut self,
-    ) -> objects::homing_speeds::HomingSpeedsAccessors<'_, C> {
-        objects::homing_speeds::HomingSpeedsAccessors {
+    pub fn homing_speeds(&mut self) -> objects::HomingSpeedsAccessors<'_, C> {
+        objects::HomingSpeedsAccessors {
             client: &mut self.client,
         }
     }
@@ -3859,8 +3799,8 @@ impl<C> Eco<C> {
     #[doc(alias("60C1", "0x60C1"))]
     pub fn interpolation_data_record(
         &mut self,
-    ) -> objects::interpolation_data_record::InterpolationDataRecordAccessors<'_, C> {
-        objects::interpolation_data_record::InterpolationDataRecordAccessors {
+    ) -> objects::InterpolationDataRecordAccessors<'_, C> {
+        objects::InterpolationDataRecordAccessors {
             client: &mut self.client,
         }
     }
@@ -3869,8 +3809,8 @@ impl<C> Eco<C> {
     #[doc(alias("60C2", "0x60C2"))]
     pub fn interpolation_time_period(
         &mut self,
-    ) -> objects::interpolation_time_period::InterpolationTimePeriodAccessors<'_, C> {
-        objects::interpolation_time_period::InterpolationTimePeriodAccessors {
+    ) -> objects::InterpolationTimePeriodAccessors<'_, C> {
+        objects::InterpolationTimePeriodAccessors {
             client: &mut self.client,
         }
     }
@@ -3885,10 +3825,8 @@ impl<C> Eco<C> {
     /// Digital Outputs: 0x60FE.
     /// The constants for the object's entries are in [`objects::digital_outputs`].
     #[doc(alias("60FE", "0x60FE"))]
-    pub fn digital_outputs(
-        &mut self,
-    ) -> objects::digital_outputs::DigitalOutputsAccessors<'_, C> {
-        objects::digital_outputs::DigitalOutputsAccessors {
+    pub fn digital_outputs(&mut self) -> objects::DigitalOutputsAccessors<'_, C> {
+        objects::DigitalOutputsAccessors {
             client: &mut self.client,
         }
     }
@@ -9595,6 +9533,7 @@ pub mod windows {
         handshake: rt::Handshake::cleared(100),
     };
 }
+#[allow(non_camel_case_types)]
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -13969,8 +13908,8 @@ pub mod objects {
     /// Pre Defined Error Field.
     ///
     /// ARRAY 0x1003.
-    pub mod pre_defined_error_field {
-        use ::lexibus as rt;
+    pub enum pre_defined_error_field {}
+    impl pre_defined_error_field {
         /// Number Of Error: 0x1003:00, UNSIGNED8, read-write.
         /// Accessor: [`PreDefinedErrorFieldAccessors::number_of_error`].
         ///
@@ -13981,7 +13920,7 @@ pub mod objects {
         /// Manual: Oggetti obbligatori; Servizio SDO.
         ///
         /// Note: Sub-index 0 of 0x1003 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1003 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti obbligatori.
-        pub const NUMBER_OF_ERROR: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ERROR: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1003, 0x00),
             "Number Of Error",
             rt::Range::OneOf(&[(0, 0)]),
@@ -13990,43 +13929,41 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Standard Of Error Type: 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_of_error_type`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_of_error_type`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Newest error in the history.
         ///
         /// Bits from CiA 301, 7.5.2.4.
         ///
         /// Description from CiA 301, 7.5.2.4. Manual: Oggetti obbligatori.
-        pub const STANDARD_OF_ERROR_TYPE: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
-        > = super::ReadOnlyNamedErrorFieldEntry::shared_object(
+        pub const STANDARD_OF_ERROR_TYPE: ReadOnly<super::types::ErrorFieldEntry> = ReadOnlyNamedErrorFieldEntry::shared_object(
             0x1003,
             0x01,
             "Standard Of Error Type",
         );
-        /// Accessors for the entries of the object. Pre Defined Error Field: 0x1003.
-        pub struct PreDefinedErrorFieldAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Pre Defined Error Field: 0x1003.
+    pub struct PreDefinedErrorFieldAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> PreDefinedErrorFieldAccessors<'_, C> {
+        /// Number of errors in the history. Writing 0 clears the history.
+        ///
+        /// Number Of Error: 0x1003:00, UNSIGNED8, read-write.
+        /// Constant: [`pre_defined_error_field::NUMBER_OF_ERROR`].
+        ///
+        /// Note: Sub-index 0 of 0x1003 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1003 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti obbligatori.
+        pub fn number_of_error(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            pre_defined_error_field::NUMBER_OF_ERROR.at(self.client)
         }
-        impl<C> PreDefinedErrorFieldAccessors<'_, C> {
-            /// Number of errors in the history. Writing 0 clears the history.
-            ///
-            /// Number Of Error: 0x1003:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ERROR`].
-            ///
-            /// Note: Sub-index 0 of 0x1003 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1003 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti obbligatori.
-            pub fn number_of_error(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_ERROR.at(self.client)
-            }
-            /// Newest error in the history.
-            ///
-            /// Standard Of Error Type: 0x1003:01, UNSIGNED32, read-only.
-            /// Constant: [`STANDARD_OF_ERROR_TYPE`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            pub fn standard_of_error_type(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
-                STANDARD_OF_ERROR_TYPE.at(self.client)
-            }
+        /// Newest error in the history.
+        ///
+        /// Standard Of Error Type: 0x1003:01, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::STANDARD_OF_ERROR_TYPE`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        pub fn standard_of_error_type(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry> {
+            pre_defined_error_field::STANDARD_OF_ERROR_TYPE.at(self.client)
         }
     }
     /// Cob-Id Sync: Default 0x80, 0x1005:00, UNSIGNED32, read-write.
@@ -14108,8 +14045,8 @@ pub mod objects {
     /// Store Parameter Field.
     ///
     /// ARRAY 0x1010.
-    pub mod store_parameter_field {
-        use ::lexibus as rt;
+    pub enum store_parameter_field {}
+    impl store_parameter_field {
         /// Number of entries of the store parameters: 0x1010:00, UNSIGNED8, read-only.
         /// Accessor: [`StoreParameterFieldAccessors::number_of_entries_of_the_store_parameters`].
         ///
@@ -14118,13 +14055,13 @@ pub mod objects {
         /// Description from CiA 301, 7.5.2.13. Manual: Oggetti opzionali.
         ///
         /// Note: Sub-index 0 of 0x1010 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1010 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1010,
             0x00,
             "Number of entries of the store parameters",
         );
         /// Save All Parameters: 0x1010:01, UNSIGNED32, read-write.
-        /// Accessor: [`StoreParameterFieldAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
+        /// Accessor: [`StoreParameterFieldAccessors::save_all_parameters`]. Value type: [`StoreParameters`](super::types::StoreParameters).
         ///
         /// Command that saves keypad parameters and objects to flash memory: write the ASCII characters "save" (0x65766173).
         ///
@@ -14133,16 +14070,14 @@ pub mod objects {
         /// Only the value 1702257011 can be written. Saves all keypad parameters, and the objects that the manual lists as saved. If the motor is enabled, the drive saves as soon as the motor is disabled.
         ///
         /// Manual: Oggetti opzionali; Salvataggio su flash; Salvataggio.
-        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
-            super::super::types::StoreParameters,
-        > = super::ReadWriteNamedStoreParameters::new(
+        pub const SAVE_ALL_PARAMETERS: ReadWrite<super::types::StoreParameters> = ReadWriteNamedStoreParameters::new(
             rt::OnCanOpenAndCoE::object(0x1010, 0x01),
             "Save All Parameters",
             rt::Range::OneOf(
                 &[
                     (
-                        super::super::types::StoreParameters::from_raw(1702257011),
-                        super::super::types::StoreParameters::from_raw(1702257011),
+                        super::types::StoreParameters::from_raw(1702257011),
+                        super::types::StoreParameters::from_raw(1702257011),
                     ),
                 ],
             ),
@@ -14150,31 +14085,34 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Store Parameter Field: 0x1010.
-        pub struct StoreParameterFieldAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Store Parameter Field: 0x1010.
+    pub struct StoreParameterFieldAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> StoreParameterFieldAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the store parameters: 0x1010:00, UNSIGNED8, read-only.
+        /// Constant: [`store_parameter_field::NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS`].
+        ///
+        /// Note: Sub-index 0 of 0x1010 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1010 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
+        pub fn number_of_entries_of_the_store_parameters(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                store_parameter_field::NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS,
+                self.client,
+            )
         }
-        impl<C> StoreParameterFieldAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the store parameters: 0x1010:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS`].
-            ///
-            /// Note: Sub-index 0 of 0x1010 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x1010 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
-            pub fn number_of_entries_of_the_store_parameters(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS.at(self.client)
-            }
-            /// Command that saves keypad parameters and objects to flash memory: write the ASCII characters "save" (0x65766173).
-            ///
-            /// Save All Parameters: 0x1010:01, UNSIGNED32, read-write.
-            /// Constant: [`SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::super::types::StoreParameters).
-            pub fn save_all_parameters(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
-                SAVE_ALL_PARAMETERS.at(self.client)
-            }
+        /// Command that saves keypad parameters and objects to flash memory: write the ASCII characters "save" (0x65766173).
+        ///
+        /// Save All Parameters: 0x1010:01, UNSIGNED32, read-write.
+        /// Constant: [`store_parameter_field::SAVE_ALL_PARAMETERS`]. Value type: [`StoreParameters`](super::types::StoreParameters).
+        pub fn save_all_parameters(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::StoreParameters> {
+            store_parameter_field::SAVE_ALL_PARAMETERS.at(self.client)
         }
     }
     /// Cob Id Emcy: 0x1014:00, UNSIGNED32, read-write.
@@ -14225,14 +14163,15 @@ pub mod objects {
     /// Identity Object.
     ///
     /// RECORD 0x1018.
-    pub mod identity_object {
+    pub enum identity_object {}
+    impl identity_object {
         /// Number of entries of the identity: 0x1018:00, UNSIGNED8, read-only.
         /// Accessor: [`IdentityObjectAccessors::number_of_entries_of_the_identity`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 301, 7.5.2.21. Manual: Oggetti obbligatori.
-        pub const NUMBER_OF_ENTRIES_OF_THE_IDENTITY: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_IDENTITY: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1018,
             0x00,
             "Number of entries of the identity",
@@ -14245,54 +14184,54 @@ pub mod objects {
         /// Description from CiA 301, 7.5.2.21. Manual: Oggetti obbligatori.
         ///
         /// Note: The vendor-ID for EtherCAT is 0x0000078F, but an example for CANopen prints the vendor-ID 6. Assumed: this table gives no default value for the vendor-ID in 0x1018:1 (the manual does not state the vendor-ID for CANopen). Manual: Device Configuration via SDOs; EtherCAT.
-        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::shared_object(
+        pub const VENDOR_ID: ReadOnly<u32> = ReadOnlyU32::shared_object(
             0x1018,
             0x01,
             "Vendor Id",
         );
-        /// Accessors for the entries of the object. Identity Object: 0x1018.
-        pub struct IdentityObjectAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Identity Object: 0x1018.
+    pub struct IdentityObjectAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> IdentityObjectAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the identity: 0x1018:00, UNSIGNED8, read-only.
+        /// Constant: [`identity_object::NUMBER_OF_ENTRIES_OF_THE_IDENTITY`].
+        pub fn number_of_entries_of_the_identity(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            identity_object::NUMBER_OF_ENTRIES_OF_THE_IDENTITY.at(self.client)
         }
-        impl<C> IdentityObjectAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the identity: 0x1018:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_IDENTITY`].
-            pub fn number_of_entries_of_the_identity(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_IDENTITY.at(self.client)
-            }
-            /// Vendor-ID of the manufacturer.
-            ///
-            /// Vendor Id: 0x1018:01, UNSIGNED32, read-only.
-            /// Constant: [`VENDOR_ID`].
-            ///
-            /// Note: The vendor-ID for EtherCAT is 0x0000078F, but an example for CANopen prints the vendor-ID 6. Assumed: this table gives no default value for the vendor-ID in 0x1018:1 (the manual does not state the vendor-ID for CANopen). Manual: Device Configuration via SDOs; EtherCAT.
-            pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                VENDOR_ID.at(self.client)
-            }
+        /// Vendor-ID of the manufacturer.
+        ///
+        /// Vendor Id: 0x1018:01, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::VENDOR_ID`].
+        ///
+        /// Note: The vendor-ID for EtherCAT is 0x0000078F, but an example for CANopen prints the vendor-ID 6. Assumed: this table gives no default value for the vendor-ID in 0x1018:1 (the manual does not state the vendor-ID for CANopen). Manual: Device Configuration via SDOs; EtherCAT.
+        pub fn vendor_id(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            identity_object::VENDOR_ID.at(self.client)
         }
     }
     /// Receive PDO 1 Communication Parameter.
     ///
     /// RECORD 0x1400.
-    pub mod receive_pdo_1_communication_parameter {
-        use ::lexibus as rt;
+    pub enum receive_pdo_1_communication_parameter {}
+    impl receive_pdo_1_communication_parameter {
         /// Number of entries of RPDO 1: 0x1400:00, UNSIGNED8, read-only.
         /// Accessor: [`ReceivePdo1CommunicationParameterAccessors::number_of_entries_of_rpdo_1`].
         ///
         /// Highest supported sub-index.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_1: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1400,
             0x00,
             "Number of entries of RPDO 1",
         );
         /// COB-ID of RPDO 1: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1CommunicationParameterAccessors::cob_id_of_rpdo_1`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`ReceivePdo1CommunicationParameterAccessors::cob_id_of_rpdo_1`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
@@ -14301,156 +14240,152 @@ pub mod objects {
         /// Manual: Oggetti opzionali; Modo interpolatore; Process data exchange with PDOs.
         ///
         /// Note: The manual states the default COB-ID of RPDO 1 only for node 1: the decimal number 513. Assumed: the default COB-ID of RPDO 1 is 0x200 plus the node-ID (513 is 0x201, and in DS 301 the default COB-ID of RPDO 1 is 0x200 plus the node-ID). Manual: Modo interpolatore.
-        pub const COB_ID_OF_RPDO_1: super::ReadWrite<
-            super::super::types::ReceivePdoIdentifier,
-        > = super::ReadWriteNamedReceivePdoIdentifier::new(
+        pub const COB_ID_OF_RPDO_1: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpenAndCoE::object(0x1400, 0x01),
             "COB-ID of RPDO 1",
             rt::Range::Full,
-            rt::Initial::NodeId(
-                super::super::types::ReceivePdoIdentifier::from_raw(0x200),
-            ),
+            rt::Initial::NodeId(super::types::ReceivePdoIdentifier::from_raw(0x200)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type of RPDO 1: 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`ReceivePdo1CommunicationParameterAccessors::transmission_type_of_rpdo_1`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`ReceivePdo1CommunicationParameterAccessors::transmission_type_of_rpdo_1`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
         ///
         /// Manual: Oggetti opzionali; Modo interpolatore.
-        pub const TRANSMISSION_TYPE_OF_RPDO_1: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_RPDO_1: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1400,
             0x02,
             "Transmission type of RPDO 1",
         );
-        /// Accessors for the entries of the object. Receive PDO 1 Communication Parameter: 0x1400.
-        pub struct ReceivePdo1CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 1 Communication Parameter: 0x1400.
+    pub struct ReceivePdo1CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo1CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of RPDO 1: 0x1400:00, UNSIGNED8, read-only.
+        /// Constant: [`receive_pdo_1_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_1`].
+        pub fn number_of_entries_of_rpdo_1(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_1_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_1,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo1CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of RPDO 1: 0x1400:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_1`].
-            pub fn number_of_entries_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_RPDO_1.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of RPDO 1: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_RPDO_1`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            ///
-            /// Note: The manual states the default COB-ID of RPDO 1 only for node 1: the decimal number 513. Assumed: the default COB-ID of RPDO 1 is 0x200 plus the node-ID (513 is 0x201, and in DS 301 the default COB-ID of RPDO 1 is 0x200 plus the node-ID). Manual: Modo interpolatore.
-            pub fn cob_id_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID_OF_RPDO_1.at(self.client)
-            }
-            /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
-            ///
-            /// Transmission type of RPDO 1: 0x1400:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_1`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_RPDO_1.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of RPDO 1: Default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_communication_parameter::COB_ID_OF_RPDO_1`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        ///
+        /// Note: The manual states the default COB-ID of RPDO 1 only for node 1: the decimal number 513. Assumed: the default COB-ID of RPDO 1 is 0x200 plus the node-ID (513 is 0x201, and in DS 301 the default COB-ID of RPDO 1 is 0x200 plus the node-ID). Manual: Modo interpolatore.
+        pub fn cob_id_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            receive_pdo_1_communication_parameter::COB_ID_OF_RPDO_1.at(self.client)
+        }
+        /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
+        ///
+        /// Transmission type of RPDO 1: 0x1400:02, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_1`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                receive_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_1,
+                self.client,
+            )
         }
     }
     /// Receive PDO 2 Communication Parameter.
     ///
     /// RECORD 0x1401.
-    pub mod receive_pdo_2_communication_parameter {
+    pub enum receive_pdo_2_communication_parameter {}
+    impl receive_pdo_2_communication_parameter {
         /// Number of entries of RPDO 2: 0x1401:00, UNSIGNED8, read-only.
         /// Accessor: [`ReceivePdo2CommunicationParameterAccessors::number_of_entries_of_rpdo_2`].
         ///
         /// Highest supported sub-index.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_2: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1401,
             0x00,
             "Number of entries of RPDO 2",
         );
         /// COB-ID of RPDO 2: 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2CommunicationParameterAccessors::cob_id_of_rpdo_2`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`ReceivePdo2CommunicationParameterAccessors::cob_id_of_rpdo_2`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
         /// Bits from CiA 301, 7.5.2.35.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_RPDO_2: super::ReadWrite<
-            super::super::types::ReceivePdoIdentifier,
-        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
+        pub const COB_ID_OF_RPDO_2: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1401,
             0x01,
             "COB-ID of RPDO 2",
         );
         /// Transmission type of RPDO 2: 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`ReceivePdo2CommunicationParameterAccessors::transmission_type_of_rpdo_2`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`ReceivePdo2CommunicationParameterAccessors::transmission_type_of_rpdo_2`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_RPDO_2: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_RPDO_2: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1401,
             0x02,
             "Transmission type of RPDO 2",
         );
-        /// Accessors for the entries of the object. Receive PDO 2 Communication Parameter: 0x1401.
-        pub struct ReceivePdo2CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 2 Communication Parameter: 0x1401.
+    pub struct ReceivePdo2CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo2CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of RPDO 2: 0x1401:00, UNSIGNED8, read-only.
+        /// Constant: [`receive_pdo_2_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_2`].
+        pub fn number_of_entries_of_rpdo_2(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_2_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_2,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo2CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of RPDO 2: 0x1401:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_2`].
-            pub fn number_of_entries_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_RPDO_2.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of RPDO 2: 0x1401:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_RPDO_2`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            pub fn cob_id_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID_OF_RPDO_2.at(self.client)
-            }
-            /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
-            ///
-            /// Transmission type of RPDO 2: 0x1401:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_2`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_RPDO_2.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of RPDO 2: 0x1401:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_communication_parameter::COB_ID_OF_RPDO_2`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        pub fn cob_id_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            receive_pdo_2_communication_parameter::COB_ID_OF_RPDO_2.at(self.client)
+        }
+        /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
+        ///
+        /// Transmission type of RPDO 2: 0x1401:02, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_2`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                receive_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_2,
+                self.client,
+            )
         }
     }
     /// Receive PDO 3 Communication Parameter.
     ///
     /// RECORD 0x1402.
-    pub mod receive_pdo_3_communication_parameter {
+    pub enum receive_pdo_3_communication_parameter {}
+    impl receive_pdo_3_communication_parameter {
         /// Number of entries of RPDO 3: 0x1402:00, UNSIGNED8, read-only.
         /// Accessor: [`ReceivePdo3CommunicationParameterAccessors::number_of_entries_of_rpdo_3`].
         ///
@@ -14459,13 +14394,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_3: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_3: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1402,
             0x00,
             "Number of entries of RPDO 3",
         );
         /// COB-ID of RPDO 3: 0x1402:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3CommunicationParameterAccessors::cob_id_of_rpdo_3`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`ReceivePdo3CommunicationParameterAccessors::cob_id_of_rpdo_3`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
@@ -14474,70 +14409,69 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_RPDO_3: super::ReadWrite<
-            super::super::types::ReceivePdoIdentifier,
-        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
+        pub const COB_ID_OF_RPDO_3: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1402,
             0x01,
             "COB-ID of RPDO 3",
         );
         /// Transmission type of RPDO 3: 0x1402:02, UNSIGNED8, read-write.
-        /// Accessor: [`ReceivePdo3CommunicationParameterAccessors::transmission_type_of_rpdo_3`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`ReceivePdo3CommunicationParameterAccessors::transmission_type_of_rpdo_3`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_RPDO_3: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_RPDO_3: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1402,
             0x02,
             "Transmission type of RPDO 3",
         );
-        /// Accessors for the entries of the object. Receive PDO 3 Communication Parameter: 0x1402.
-        pub struct ReceivePdo3CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 3 Communication Parameter: 0x1402.
+    pub struct ReceivePdo3CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo3CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of RPDO 3: 0x1402:00, UNSIGNED8, read-only.
+        /// Constant: [`receive_pdo_3_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_3`].
+        pub fn number_of_entries_of_rpdo_3(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_3_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_3,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo3CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of RPDO 3: 0x1402:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_3`].
-            pub fn number_of_entries_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_RPDO_3.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of RPDO 3: 0x1402:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_RPDO_3`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            pub fn cob_id_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID_OF_RPDO_3.at(self.client)
-            }
-            /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
-            ///
-            /// Transmission type of RPDO 3: 0x1402:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_3`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_RPDO_3.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of RPDO 3: 0x1402:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_communication_parameter::COB_ID_OF_RPDO_3`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        pub fn cob_id_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            receive_pdo_3_communication_parameter::COB_ID_OF_RPDO_3.at(self.client)
+        }
+        /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
+        ///
+        /// Transmission type of RPDO 3: 0x1402:02, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_3`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                receive_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_3,
+                self.client,
+            )
         }
     }
     /// Receive PDO 4 Communication Parameter.
     ///
     /// RECORD 0x1403.
-    pub mod receive_pdo_4_communication_parameter {
+    pub enum receive_pdo_4_communication_parameter {}
+    impl receive_pdo_4_communication_parameter {
         /// Number of entries of RPDO 4: 0x1403:00, UNSIGNED8, read-only.
         /// Accessor: [`ReceivePdo4CommunicationParameterAccessors::number_of_entries_of_rpdo_4`].
         ///
@@ -14546,13 +14480,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_4: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_4: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1403,
             0x00,
             "Number of entries of RPDO 4",
         );
         /// COB-ID of RPDO 4: 0x1403:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4CommunicationParameterAccessors::cob_id_of_rpdo_4`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
+        /// Accessor: [`ReceivePdo4CommunicationParameterAccessors::cob_id_of_rpdo_4`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
@@ -14561,71 +14495,69 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_RPDO_4: super::ReadWrite<
-            super::super::types::ReceivePdoIdentifier,
-        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
+        pub const COB_ID_OF_RPDO_4: ReadWrite<super::types::ReceivePdoIdentifier> = ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1403,
             0x01,
             "COB-ID of RPDO 4",
         );
         /// Transmission type of RPDO 4: 0x1403:02, UNSIGNED8, read-write.
-        /// Accessor: [`ReceivePdo4CommunicationParameterAccessors::transmission_type_of_rpdo_4`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`ReceivePdo4CommunicationParameterAccessors::transmission_type_of_rpdo_4`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_RPDO_4: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_RPDO_4: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1403,
             0x02,
             "Transmission type of RPDO 4",
         );
-        /// Accessors for the entries of the object. Receive PDO 4 Communication Parameter: 0x1403.
-        pub struct ReceivePdo4CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 4 Communication Parameter: 0x1403.
+    pub struct ReceivePdo4CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo4CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of RPDO 4: 0x1403:00, UNSIGNED8, read-only.
+        /// Constant: [`receive_pdo_4_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_4`].
+        pub fn number_of_entries_of_rpdo_4(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_4_communication_parameter::NUMBER_OF_ENTRIES_OF_RPDO_4,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo4CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of RPDO 4: 0x1403:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_4`].
-            pub fn number_of_entries_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_RPDO_4.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of RPDO 4: 0x1403:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_RPDO_4`]. Value type: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
-            pub fn cob_id_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ReceivePdoIdentifier,
-            > {
-                COB_ID_OF_RPDO_4.at(self.client)
-            }
-            /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
-            ///
-            /// Transmission type of RPDO 4: 0x1403:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_4`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_RPDO_4.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of RPDO 4: 0x1403:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_communication_parameter::COB_ID_OF_RPDO_4`]. Value type: [`ReceivePdoIdentifier`](super::types::ReceivePdoIdentifier).
+        pub fn cob_id_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::ReceivePdoIdentifier> {
+            receive_pdo_4_communication_parameter::COB_ID_OF_RPDO_4.at(self.client)
+        }
+        /// Transmission type: selects whether the drive applies a received PDO at the next SYNC or at once.
+        ///
+        /// Transmission type of RPDO 4: 0x1403:02, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_4`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                receive_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_4,
+                self.client,
+            )
         }
     }
     /// Receive PDO 1 Mapping Parameter.
     ///
     /// ARRAY 0x1600.
-    pub mod receive_pdo_1_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum receive_pdo_1_mapping_parameter {}
+    impl receive_pdo_1_mapping_parameter {
         /// Number of mapped objects of RPDO 1: At most 8, 0x1600:00, UNSIGNED8, read-write.
         /// Accessor: [`ReceivePdo1MappingParameterAccessors::number_of_mapped_objects_of_rpdo_1`].
         ///
@@ -14636,7 +14568,7 @@ pub mod objects {
         /// On EtherCAT: default 2. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1600, 0x00),
             "Number of mapped objects of RPDO 1",
             rt::Range::To(8),
@@ -14645,206 +14577,217 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of RPDO 1: 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_1_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_1_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// On EtherCAT: default 1614807056. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x01,
             "Mapped object 1 of RPDO 1",
         );
         /// Mapped object 2 of RPDO 1: 0x1600:02, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_2_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_2_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// On EtherCAT: default 1623261472. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x02,
             "Mapped object 2 of RPDO 1",
         );
         /// Mapped object 3 of RPDO 1: 0x1600:03, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_3_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_3_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x03,
             "Mapped object 3 of RPDO 1",
         );
         /// Mapped object 4 of RPDO 1: 0x1600:04, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_4_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_4_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x04,
             "Mapped object 4 of RPDO 1",
         );
         /// Mapped object 5 of RPDO 1: 0x1600:05, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_5_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_5_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x05,
             "Mapped object 5 of RPDO 1",
         );
         /// Mapped object 6 of RPDO 1: 0x1600:06, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_6_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_6_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x06,
             "Mapped object 6 of RPDO 1",
         );
         /// Mapped object 7 of RPDO 1: 0x1600:07, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_7_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_7_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x07,
             "Mapped object 7 of RPDO 1",
         );
         /// Mapped object 8 of RPDO 1: 0x1600:08, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_8_of_rpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo1MappingParameterAccessors::mapped_object_8_of_rpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to RPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_RPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_RPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x08,
             "Mapped object 8 of RPDO 1",
         );
-        /// Accessors for the entries of the object. Receive PDO 1 Mapping Parameter: 0x1600.
-        pub struct ReceivePdo1MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 1 Mapping Parameter: 0x1600.
+    pub struct ReceivePdo1MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo1MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to RPDO 1. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of RPDO 1: At most 8, 0x1600:00, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1`].
+        pub fn number_of_mapped_objects_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo1MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to RPDO 1. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of RPDO 1: At most 8, 0x1600:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1`].
-            pub fn number_of_mapped_objects_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1.at(self.client)
-            }
-            /// First object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of RPDO 1: 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_RPDO_1.at(self.client)
-            }
-            /// Second object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of RPDO 1: 0x1600:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_RPDO_1.at(self.client)
-            }
-            /// Third object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of RPDO 1: 0x1600:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_RPDO_1.at(self.client)
-            }
-            /// Fourth object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of RPDO 1: 0x1600:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_RPDO_1.at(self.client)
-            }
-            /// Fifth object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of RPDO 1: 0x1600:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_RPDO_1.at(self.client)
-            }
-            /// Sixth object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of RPDO 1: 0x1600:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_RPDO_1.at(self.client)
-            }
-            /// Seventh object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of RPDO 1: 0x1600:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_RPDO_1.at(self.client)
-            }
-            /// Eighth object mapped to RPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of RPDO 1: 0x1600:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_rpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_RPDO_1.at(self.client)
-            }
+        /// First object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of RPDO 1: 0x1600:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Second object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of RPDO 1: 0x1600:02, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Third object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of RPDO 1: 0x1600:03, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of RPDO 1: 0x1600:04, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of RPDO 1: 0x1600:05, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of RPDO 1: 0x1600:06, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of RPDO 1: 0x1600:07, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_1,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to RPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of RPDO 1: 0x1600:08, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_rpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_1,
+                self.client,
+            )
         }
     }
     /// Receive PDO 2 Mapping Parameter.
     ///
     /// ARRAY 0x1601.
-    pub mod receive_pdo_2_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum receive_pdo_2_mapping_parameter {}
+    impl receive_pdo_2_mapping_parameter {
         /// Number of mapped objects of RPDO 2: At most 8, 0x1601:00, UNSIGNED8, read-write.
         /// Accessor: [`ReceivePdo2MappingParameterAccessors::number_of_mapped_objects_of_rpdo_2`].
         ///
@@ -14853,7 +14796,7 @@ pub mod objects {
         /// Writing 0 clears the mapping, so that its entries can be written.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1601, 0x00),
             "Number of mapped objects of RPDO 2",
             rt::Range::To(8),
@@ -14862,208 +14805,219 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of RPDO 2: 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_1_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_1_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// On EtherCAT: default 1614807056. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x01,
             "Mapped object 1 of RPDO 2",
         );
         /// Mapped object 2 of RPDO 2: 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_2_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_2_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali; PDO.
         ///
         /// Note: On EtherCAT, the default mapping has Modes of Operation with two bytes, but the object 0x6060 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1601 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
-        pub const MAPPED_OBJECT_2_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x02,
             "Mapped object 2 of RPDO 2",
         );
         /// Mapped object 3 of RPDO 2: 0x1601:03, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_3_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_3_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x03,
             "Mapped object 3 of RPDO 2",
         );
         /// Mapped object 4 of RPDO 2: 0x1601:04, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_4_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_4_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x04,
             "Mapped object 4 of RPDO 2",
         );
         /// Mapped object 5 of RPDO 2: 0x1601:05, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_5_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_5_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x05,
             "Mapped object 5 of RPDO 2",
         );
         /// Mapped object 6 of RPDO 2: 0x1601:06, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_6_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_6_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x06,
             "Mapped object 6 of RPDO 2",
         );
         /// Mapped object 7 of RPDO 2: 0x1601:07, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_7_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_7_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x07,
             "Mapped object 7 of RPDO 2",
         );
         /// Mapped object 8 of RPDO 2: 0x1601:08, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_8_of_rpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo2MappingParameterAccessors::mapped_object_8_of_rpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to RPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_RPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_RPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x08,
             "Mapped object 8 of RPDO 2",
         );
-        /// Accessors for the entries of the object. Receive PDO 2 Mapping Parameter: 0x1601.
-        pub struct ReceivePdo2MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 2 Mapping Parameter: 0x1601.
+    pub struct ReceivePdo2MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo2MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to RPDO 2. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of RPDO 2: At most 8, 0x1601:00, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2`].
+        pub fn number_of_mapped_objects_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo2MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to RPDO 2. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of RPDO 2: At most 8, 0x1601:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2`].
-            pub fn number_of_mapped_objects_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2.at(self.client)
-            }
-            /// First object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of RPDO 2: 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_RPDO_2.at(self.client)
-            }
-            /// Second object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of RPDO 2: 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            ///
-            /// Note: On EtherCAT, the default mapping has Modes of Operation with two bytes, but the object 0x6060 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1601 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
-            pub fn mapped_object_2_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_RPDO_2.at(self.client)
-            }
-            /// Third object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of RPDO 2: 0x1601:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_RPDO_2.at(self.client)
-            }
-            /// Fourth object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of RPDO 2: 0x1601:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_RPDO_2.at(self.client)
-            }
-            /// Fifth object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of RPDO 2: 0x1601:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_RPDO_2.at(self.client)
-            }
-            /// Sixth object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of RPDO 2: 0x1601:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_RPDO_2.at(self.client)
-            }
-            /// Seventh object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of RPDO 2: 0x1601:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_RPDO_2.at(self.client)
-            }
-            /// Eighth object mapped to RPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of RPDO 2: 0x1601:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_rpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_RPDO_2.at(self.client)
-            }
+        /// First object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of RPDO 2: 0x1601:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Second object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of RPDO 2: 0x1601:02, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        ///
+        /// Note: On EtherCAT, the default mapping has Modes of Operation with two bytes, but the object 0x6060 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1601 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
+        pub fn mapped_object_2_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Third object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of RPDO 2: 0x1601:03, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of RPDO 2: 0x1601:04, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of RPDO 2: 0x1601:05, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of RPDO 2: 0x1601:06, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of RPDO 2: 0x1601:07, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_2,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to RPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of RPDO 2: 0x1601:08, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_2_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_rpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_2_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_2,
+                self.client,
+            )
         }
     }
     /// Receive PDO 3 Mapping Parameter.
     ///
     /// ARRAY 0x1602.
-    pub mod receive_pdo_3_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum receive_pdo_3_mapping_parameter {}
+    impl receive_pdo_3_mapping_parameter {
         /// Number of mapped objects of RPDO 3: At most 8, 0x1602:00, UNSIGNED8, read-write.
         /// Accessor: [`ReceivePdo3MappingParameterAccessors::number_of_mapped_objects_of_rpdo_3`].
         ///
@@ -15076,7 +15030,7 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1602, 0x00),
             "Number of mapped objects of RPDO 3",
             rt::Range::To(8),
@@ -15085,7 +15039,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of RPDO 3: 0x1602:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_1_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_1_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to RPDO 3: index, sub-index and length in bits.
         ///
@@ -15094,15 +15048,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x01,
             "Mapped object 1 of RPDO 3",
         );
         /// Mapped object 2 of RPDO 3: 0x1602:02, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_2_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_2_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to RPDO 3: index, sub-index and length in bits.
         ///
@@ -15111,196 +15063,209 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x02,
             "Mapped object 2 of RPDO 3",
         );
         /// Mapped object 3 of RPDO 3: 0x1602:03, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_3_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_3_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x03,
             "Mapped object 3 of RPDO 3",
         );
         /// Mapped object 4 of RPDO 3: 0x1602:04, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_4_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_4_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x04,
             "Mapped object 4 of RPDO 3",
         );
         /// Mapped object 5 of RPDO 3: 0x1602:05, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_5_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_5_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x05,
             "Mapped object 5 of RPDO 3",
         );
         /// Mapped object 6 of RPDO 3: 0x1602:06, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_6_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_6_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x06,
             "Mapped object 6 of RPDO 3",
         );
         /// Mapped object 7 of RPDO 3: 0x1602:07, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_7_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_7_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x07,
             "Mapped object 7 of RPDO 3",
         );
         /// Mapped object 8 of RPDO 3: 0x1602:08, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_8_of_rpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo3MappingParameterAccessors::mapped_object_8_of_rpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to RPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_RPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_RPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x08,
             "Mapped object 8 of RPDO 3",
         );
-        /// Accessors for the entries of the object. Receive PDO 3 Mapping Parameter: 0x1602.
-        pub struct ReceivePdo3MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 3 Mapping Parameter: 0x1602.
+    pub struct ReceivePdo3MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo3MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to RPDO 3. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of RPDO 3: At most 8, 0x1602:00, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3`].
+        pub fn number_of_mapped_objects_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo3MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to RPDO 3. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of RPDO 3: At most 8, 0x1602:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3`].
-            pub fn number_of_mapped_objects_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3.at(self.client)
-            }
-            /// First object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of RPDO 3: 0x1602:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_RPDO_3.at(self.client)
-            }
-            /// Second object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of RPDO 3: 0x1602:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_RPDO_3.at(self.client)
-            }
-            /// Third object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of RPDO 3: 0x1602:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_RPDO_3.at(self.client)
-            }
-            /// Fourth object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of RPDO 3: 0x1602:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_RPDO_3.at(self.client)
-            }
-            /// Fifth object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of RPDO 3: 0x1602:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_RPDO_3.at(self.client)
-            }
-            /// Sixth object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of RPDO 3: 0x1602:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_RPDO_3.at(self.client)
-            }
-            /// Seventh object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of RPDO 3: 0x1602:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_RPDO_3.at(self.client)
-            }
-            /// Eighth object mapped to RPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of RPDO 3: 0x1602:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_rpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_RPDO_3.at(self.client)
-            }
+        /// First object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of RPDO 3: 0x1602:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Second object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of RPDO 3: 0x1602:02, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Third object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of RPDO 3: 0x1602:03, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of RPDO 3: 0x1602:04, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of RPDO 3: 0x1602:05, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of RPDO 3: 0x1602:06, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of RPDO 3: 0x1602:07, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_3,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to RPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of RPDO 3: 0x1602:08, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_3_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_rpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_3_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_3,
+                self.client,
+            )
         }
     }
     /// Receive PDO 4 Mapping Parameter.
     ///
     /// ARRAY 0x1603.
-    pub mod receive_pdo_4_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum receive_pdo_4_mapping_parameter {}
+    impl receive_pdo_4_mapping_parameter {
         /// Number of mapped objects of RPDO 4: At most 8, 0x1603:00, UNSIGNED8, read-write.
         /// Accessor: [`ReceivePdo4MappingParameterAccessors::number_of_mapped_objects_of_rpdo_4`].
         ///
@@ -15313,7 +15278,7 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1603, 0x00),
             "Number of mapped objects of RPDO 4",
             rt::Range::To(8),
@@ -15322,7 +15287,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of RPDO 4: 0x1603:01, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_1_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_1_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to RPDO 4: index, sub-index and length in bits.
         ///
@@ -15331,15 +15296,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x01,
             "Mapped object 1 of RPDO 4",
         );
         /// Mapped object 2 of RPDO 4: 0x1603:02, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_2_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_2_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to RPDO 4: index, sub-index and length in bits.
         ///
@@ -15348,231 +15311,242 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x02,
             "Mapped object 2 of RPDO 4",
         );
         /// Mapped object 3 of RPDO 4: 0x1603:03, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_3_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_3_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x03,
             "Mapped object 3 of RPDO 4",
         );
         /// Mapped object 4 of RPDO 4: 0x1603:04, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_4_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_4_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x04,
             "Mapped object 4 of RPDO 4",
         );
         /// Mapped object 5 of RPDO 4: 0x1603:05, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_5_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_5_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x05,
             "Mapped object 5 of RPDO 4",
         );
         /// Mapped object 6 of RPDO 4: 0x1603:06, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_6_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_6_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x06,
             "Mapped object 6 of RPDO 4",
         );
         /// Mapped object 7 of RPDO 4: 0x1603:07, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_7_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_7_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x07,
             "Mapped object 7 of RPDO 4",
         );
         /// Mapped object 8 of RPDO 4: 0x1603:08, UNSIGNED32, read-write.
-        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_8_of_rpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`ReceivePdo4MappingParameterAccessors::mapped_object_8_of_rpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to RPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_RPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_RPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x08,
             "Mapped object 8 of RPDO 4",
         );
-        /// Accessors for the entries of the object. Receive PDO 4 Mapping Parameter: 0x1603.
-        pub struct ReceivePdo4MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Receive PDO 4 Mapping Parameter: 0x1603.
+    pub struct ReceivePdo4MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReceivePdo4MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to RPDO 4. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of RPDO 4: At most 8, 0x1603:00, UNSIGNED8, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4`].
+        pub fn number_of_mapped_objects_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4,
+                self.client,
+            )
         }
-        impl<C> ReceivePdo4MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to RPDO 4. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of RPDO 4: At most 8, 0x1603:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4`].
-            pub fn number_of_mapped_objects_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4.at(self.client)
-            }
-            /// First object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of RPDO 4: 0x1603:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_RPDO_4.at(self.client)
-            }
-            /// Second object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of RPDO 4: 0x1603:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_RPDO_4.at(self.client)
-            }
-            /// Third object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of RPDO 4: 0x1603:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_RPDO_4.at(self.client)
-            }
-            /// Fourth object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of RPDO 4: 0x1603:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_RPDO_4.at(self.client)
-            }
-            /// Fifth object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of RPDO 4: 0x1603:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_RPDO_4.at(self.client)
-            }
-            /// Sixth object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of RPDO 4: 0x1603:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_RPDO_4.at(self.client)
-            }
-            /// Seventh object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of RPDO 4: 0x1603:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_RPDO_4.at(self.client)
-            }
-            /// Eighth object mapped to RPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of RPDO 4: 0x1603:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_rpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_RPDO_4.at(self.client)
-            }
+        /// First object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of RPDO 4: 0x1603:01, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Second object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of RPDO 4: 0x1603:02, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Third object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of RPDO 4: 0x1603:03, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of RPDO 4: 0x1603:04, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of RPDO 4: 0x1603:05, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of RPDO 4: 0x1603:06, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of RPDO 4: 0x1603:07, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_4,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to RPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of RPDO 4: 0x1603:08, UNSIGNED32, read-write.
+        /// Constant: [`receive_pdo_4_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_rpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                receive_pdo_4_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_4,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 1 Communication Parameter.
     ///
     /// RECORD 0x1800.
-    pub mod transmit_pdo_1_communication_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_1_communication_parameter {}
+    impl transmit_pdo_1_communication_parameter {
         /// Number of entries of TPDO 1: 0x1800:00, UNSIGNED8, read-only.
         /// Accessor: [`TransmitPdo1CommunicationParameterAccessors::number_of_entries_of_tpdo_1`].
         ///
         /// Highest supported sub-index.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_1: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1800,
             0x00,
             "Number of entries of TPDO 1",
         );
         /// COB-ID of TPDO 1: 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1CommunicationParameterAccessors::cob_id_of_tpdo_1`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`TransmitPdo1CommunicationParameterAccessors::cob_id_of_tpdo_1`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
         /// Bits from CiA 301, 7.5.2.37.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_TPDO_1: super::ReadWrite<
-            super::super::types::TransmitPdoIdentifier,
-        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
+        pub const COB_ID_OF_TPDO_1: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1800,
             0x01,
             "COB-ID of TPDO 1",
         );
         /// Transmission type of TPDO 1: 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`TransmitPdo1CommunicationParameterAccessors::transmission_type_of_tpdo_1`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TransmitPdo1CommunicationParameterAccessors::transmission_type_of_tpdo_1`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
         ///
         /// Manual: Oggetti opzionali; Modo interpolatore.
-        pub const TRANSMISSION_TYPE_OF_TPDO_1: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_TPDO_1: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1800,
             0x02,
             "Transmission type of TPDO 1",
@@ -15585,7 +15559,7 @@ pub mod objects {
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
         ///
         /// Note: A table in the introduction to CANopen states the unit ms for the inhibit time of a PDO, but the text states multiples of 100 microseconds. Assumed: the unit of the inhibit time is 100 microseconds (DS 301 defines the unit 100 microseconds for the inhibit time, and the text of the manual states this unit twice). Manual: Process data exchange with PDOs.
-        pub const INHIBIT_TIME_OF_TPDO_1: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
+        pub const INHIBIT_TIME_OF_TPDO_1: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x03),
             "Inhibit time of TPDO 1",
             rt::Range::Full,
@@ -15599,7 +15573,7 @@ pub mod objects {
         /// Reserved sub-index, for compatibility.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: Oggetti opzionali.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_1: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x1800,
             0x04,
             "Compatibility entry of TPDO 1",
@@ -15612,9 +15586,7 @@ pub mod objects {
         /// Special value 0: no timer.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const EVENT_TIMER_OF_TPDO_1: super::ReadWrite<
-            rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        > = super::ReadWriteU16Times1Per1OrNone0::new(
+        pub const EVENT_TIMER_OF_TPDO_1: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x05),
             "Event timer of TPDO 1",
             rt::Range::Full,
@@ -15622,113 +15594,118 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Transmit PDO 1 Communication Parameter: 0x1800.
-        pub struct TransmitPdo1CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 1 Communication Parameter: 0x1800.
+    pub struct TransmitPdo1CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo1CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of TPDO 1: 0x1800:00, UNSIGNED8, read-only.
+        /// Constant: [`transmit_pdo_1_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_1`].
+        pub fn number_of_entries_of_tpdo_1(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_1_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_1,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo1CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of TPDO 1: 0x1800:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_1`].
-            pub fn number_of_entries_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_TPDO_1.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of TPDO 1: 0x1800:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_TPDO_1`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID_OF_TPDO_1.at(self.client)
-            }
-            /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
-            ///
-            /// Transmission type of TPDO 1: 0x1800:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_1`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_TPDO_1.at(self.client)
-            }
-            /// Inhibit time: minimum time between two transmissions of the PDO.
-            ///
-            /// Inhibit time of TPDO 1: 1 LSB = 100 µs, 0x1800:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME_OF_TPDO_1`].
-            ///
-            /// Note: A table in the introduction to CANopen states the unit ms for the inhibit time of a PDO, but the text states multiples of 100 microseconds. Assumed: the unit of the inhibit time is 100 microseconds (DS 301 defines the unit 100 microseconds for the inhibit time, and the text of the manual states this unit twice). Manual: Process data exchange with PDOs.
-            pub fn inhibit_time_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
-                INHIBIT_TIME_OF_TPDO_1.at(self.client)
-            }
-            /// Reserved sub-index, for compatibility.
-            ///
-            /// Compatibility entry of TPDO 1: 0x1800:04, UNSIGNED8, read-write.
-            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_1`].
-            pub fn compatibility_entry_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                COMPATIBILITY_ENTRY_OF_TPDO_1.at(self.client)
-            }
-            /// Event timer: maximum time between two transmissions of an asynchronous PDO.
-            ///
-            /// Event timer of TPDO 1: Unit ms, 0x1800:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER_OF_TPDO_1`].
-            pub fn event_timer_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
-                EVENT_TIMER_OF_TPDO_1.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of TPDO 1: 0x1800:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_communication_parameter::COB_ID_OF_TPDO_1`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            transmit_pdo_1_communication_parameter::COB_ID_OF_TPDO_1.at(self.client)
+        }
+        /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
+        ///
+        /// Transmission type of TPDO 1: 0x1800:02, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_1`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                transmit_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Inhibit time: minimum time between two transmissions of the PDO.
+        ///
+        /// Inhibit time of TPDO 1: 1 LSB = 100 µs, 0x1800:03, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_1_communication_parameter::INHIBIT_TIME_OF_TPDO_1`].
+        ///
+        /// Note: A table in the introduction to CANopen states the unit ms for the inhibit time of a PDO, but the text states multiples of 100 microseconds. Assumed: the unit of the inhibit time is 100 microseconds (DS 301 defines the unit 100 microseconds for the inhibit time, and the text of the manual states this unit twice). Manual: Process data exchange with PDOs.
+        pub fn inhibit_time_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
+            rt::Item::at(
+                transmit_pdo_1_communication_parameter::INHIBIT_TIME_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Reserved sub-index, for compatibility.
+        ///
+        /// Compatibility entry of TPDO 1: 0x1800:04, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_1_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_1`].
+        pub fn compatibility_entry_of_tpdo_1(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_1_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Event timer: maximum time between two transmissions of an asynchronous PDO.
+        ///
+        /// Event timer of TPDO 1: Unit ms, 0x1800:05, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_1_communication_parameter::EVENT_TIMER_OF_TPDO_1`].
+        pub fn event_timer_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
+            rt::Item::at(
+                transmit_pdo_1_communication_parameter::EVENT_TIMER_OF_TPDO_1,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 2 Communication Parameter.
     ///
     /// RECORD 0x1801.
-    pub mod transmit_pdo_2_communication_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_2_communication_parameter {}
+    impl transmit_pdo_2_communication_parameter {
         /// Number of entries of TPDO 2: 0x1801:00, UNSIGNED8, read-only.
         /// Accessor: [`TransmitPdo2CommunicationParameterAccessors::number_of_entries_of_tpdo_2`].
         ///
         /// Highest supported sub-index.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_2: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1801,
             0x00,
             "Number of entries of TPDO 2",
         );
         /// COB-ID of TPDO 2: 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2CommunicationParameterAccessors::cob_id_of_tpdo_2`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`TransmitPdo2CommunicationParameterAccessors::cob_id_of_tpdo_2`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
         /// Bits from CiA 301, 7.5.2.37.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_TPDO_2: super::ReadWrite<
-            super::super::types::TransmitPdoIdentifier,
-        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
+        pub const COB_ID_OF_TPDO_2: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1801,
             0x01,
             "COB-ID of TPDO 2",
         );
         /// Transmission type of TPDO 2: 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`TransmitPdo2CommunicationParameterAccessors::transmission_type_of_tpdo_2`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TransmitPdo2CommunicationParameterAccessors::transmission_type_of_tpdo_2`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_TPDO_2: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_TPDO_2: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1801,
             0x02,
             "Transmission type of TPDO 2",
@@ -15739,7 +15716,7 @@ pub mod objects {
         /// Inhibit time: minimum time between two transmissions of the PDO.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const INHIBIT_TIME_OF_TPDO_2: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
+        pub const INHIBIT_TIME_OF_TPDO_2: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x03),
             "Inhibit time of TPDO 2",
             rt::Range::Full,
@@ -15753,7 +15730,7 @@ pub mod objects {
         /// Reserved sub-index, for compatibility.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: Oggetti opzionali.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_2: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x1801,
             0x04,
             "Compatibility entry of TPDO 2",
@@ -15766,9 +15743,7 @@ pub mod objects {
         /// Special value 0: no timer.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const EVENT_TIMER_OF_TPDO_2: super::ReadWrite<
-            rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        > = super::ReadWriteU16Times1Per1OrNone0::new(
+        pub const EVENT_TIMER_OF_TPDO_2: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x05),
             "Event timer of TPDO 2",
             rt::Range::Full,
@@ -15776,76 +15751,83 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Transmit PDO 2 Communication Parameter: 0x1801.
-        pub struct TransmitPdo2CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 2 Communication Parameter: 0x1801.
+    pub struct TransmitPdo2CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo2CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of TPDO 2: 0x1801:00, UNSIGNED8, read-only.
+        /// Constant: [`transmit_pdo_2_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_2`].
+        pub fn number_of_entries_of_tpdo_2(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_2_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_2,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo2CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of TPDO 2: 0x1801:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_2`].
-            pub fn number_of_entries_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_TPDO_2.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of TPDO 2: 0x1801:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_TPDO_2`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID_OF_TPDO_2.at(self.client)
-            }
-            /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
-            ///
-            /// Transmission type of TPDO 2: 0x1801:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_2`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_TPDO_2.at(self.client)
-            }
-            /// Inhibit time: minimum time between two transmissions of the PDO.
-            ///
-            /// Inhibit time of TPDO 2: 1 LSB = 100 µs, 0x1801:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME_OF_TPDO_2`].
-            pub fn inhibit_time_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
-                INHIBIT_TIME_OF_TPDO_2.at(self.client)
-            }
-            /// Reserved sub-index, for compatibility.
-            ///
-            /// Compatibility entry of TPDO 2: 0x1801:04, UNSIGNED8, read-write.
-            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_2`].
-            pub fn compatibility_entry_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                COMPATIBILITY_ENTRY_OF_TPDO_2.at(self.client)
-            }
-            /// Event timer: maximum time between two transmissions of an asynchronous PDO.
-            ///
-            /// Event timer of TPDO 2: Unit ms, 0x1801:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER_OF_TPDO_2`].
-            pub fn event_timer_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
-                EVENT_TIMER_OF_TPDO_2.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of TPDO 2: 0x1801:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_communication_parameter::COB_ID_OF_TPDO_2`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            transmit_pdo_2_communication_parameter::COB_ID_OF_TPDO_2.at(self.client)
+        }
+        /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
+        ///
+        /// Transmission type of TPDO 2: 0x1801:02, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_2`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                transmit_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Inhibit time: minimum time between two transmissions of the PDO.
+        ///
+        /// Inhibit time of TPDO 2: 1 LSB = 100 µs, 0x1801:03, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_2_communication_parameter::INHIBIT_TIME_OF_TPDO_2`].
+        pub fn inhibit_time_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
+            rt::Item::at(
+                transmit_pdo_2_communication_parameter::INHIBIT_TIME_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Reserved sub-index, for compatibility.
+        ///
+        /// Compatibility entry of TPDO 2: 0x1801:04, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_2_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_2`].
+        pub fn compatibility_entry_of_tpdo_2(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_2_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Event timer: maximum time between two transmissions of an asynchronous PDO.
+        ///
+        /// Event timer of TPDO 2: Unit ms, 0x1801:05, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_2_communication_parameter::EVENT_TIMER_OF_TPDO_2`].
+        pub fn event_timer_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
+            rt::Item::at(
+                transmit_pdo_2_communication_parameter::EVENT_TIMER_OF_TPDO_2,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 3 Communication Parameter.
     ///
     /// RECORD 0x1802.
-    pub mod transmit_pdo_3_communication_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_3_communication_parameter {}
+    impl transmit_pdo_3_communication_parameter {
         /// Number of entries of TPDO 3: 0x1802:00, UNSIGNED8, read-only.
         /// Accessor: [`TransmitPdo3CommunicationParameterAccessors::number_of_entries_of_tpdo_3`].
         ///
@@ -15854,13 +15836,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_3: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_3: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1802,
             0x00,
             "Number of entries of TPDO 3",
         );
         /// COB-ID of TPDO 3: 0x1802:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3CommunicationParameterAccessors::cob_id_of_tpdo_3`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`TransmitPdo3CommunicationParameterAccessors::cob_id_of_tpdo_3`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
@@ -15869,24 +15851,22 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_TPDO_3: super::ReadWrite<
-            super::super::types::TransmitPdoIdentifier,
-        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
+        pub const COB_ID_OF_TPDO_3: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1802,
             0x01,
             "COB-ID of TPDO 3",
         );
         /// Transmission type of TPDO 3: 0x1802:02, UNSIGNED8, read-write.
-        /// Accessor: [`TransmitPdo3CommunicationParameterAccessors::transmission_type_of_tpdo_3`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TransmitPdo3CommunicationParameterAccessors::transmission_type_of_tpdo_3`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_TPDO_3: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_TPDO_3: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1802,
             0x02,
             "Transmission type of TPDO 3",
@@ -15899,7 +15879,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const INHIBIT_TIME_OF_TPDO_3: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
+        pub const INHIBIT_TIME_OF_TPDO_3: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x03),
             "Inhibit time of TPDO 3",
             rt::Range::Full,
@@ -15915,7 +15895,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: Oggetti opzionali.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_3: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x1802,
             0x04,
             "Compatibility entry of TPDO 3",
@@ -15930,9 +15910,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const EVENT_TIMER_OF_TPDO_3: super::ReadWrite<
-            rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        > = super::ReadWriteU16Times1Per1OrNone0::new(
+        pub const EVENT_TIMER_OF_TPDO_3: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x05),
             "Event timer of TPDO 3",
             rt::Range::Full,
@@ -15940,76 +15918,83 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Transmit PDO 3 Communication Parameter: 0x1802.
-        pub struct TransmitPdo3CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 3 Communication Parameter: 0x1802.
+    pub struct TransmitPdo3CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo3CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of TPDO 3: 0x1802:00, UNSIGNED8, read-only.
+        /// Constant: [`transmit_pdo_3_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_3`].
+        pub fn number_of_entries_of_tpdo_3(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_3_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_3,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo3CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of TPDO 3: 0x1802:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_3`].
-            pub fn number_of_entries_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_TPDO_3.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of TPDO 3: 0x1802:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_TPDO_3`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID_OF_TPDO_3.at(self.client)
-            }
-            /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
-            ///
-            /// Transmission type of TPDO 3: 0x1802:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_3`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_TPDO_3.at(self.client)
-            }
-            /// Inhibit time: minimum time between two transmissions of the PDO.
-            ///
-            /// Inhibit time of TPDO 3: 1 LSB = 100 µs, 0x1802:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME_OF_TPDO_3`].
-            pub fn inhibit_time_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
-                INHIBIT_TIME_OF_TPDO_3.at(self.client)
-            }
-            /// Reserved sub-index, for compatibility.
-            ///
-            /// Compatibility entry of TPDO 3: 0x1802:04, UNSIGNED8, read-write.
-            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_3`].
-            pub fn compatibility_entry_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                COMPATIBILITY_ENTRY_OF_TPDO_3.at(self.client)
-            }
-            /// Event timer: maximum time between two transmissions of an asynchronous PDO.
-            ///
-            /// Event timer of TPDO 3: Unit ms, 0x1802:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER_OF_TPDO_3`].
-            pub fn event_timer_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
-                EVENT_TIMER_OF_TPDO_3.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of TPDO 3: 0x1802:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_communication_parameter::COB_ID_OF_TPDO_3`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            transmit_pdo_3_communication_parameter::COB_ID_OF_TPDO_3.at(self.client)
+        }
+        /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
+        ///
+        /// Transmission type of TPDO 3: 0x1802:02, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_3`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                transmit_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Inhibit time: minimum time between two transmissions of the PDO.
+        ///
+        /// Inhibit time of TPDO 3: 1 LSB = 100 µs, 0x1802:03, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_3_communication_parameter::INHIBIT_TIME_OF_TPDO_3`].
+        pub fn inhibit_time_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
+            rt::Item::at(
+                transmit_pdo_3_communication_parameter::INHIBIT_TIME_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Reserved sub-index, for compatibility.
+        ///
+        /// Compatibility entry of TPDO 3: 0x1802:04, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_3_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_3`].
+        pub fn compatibility_entry_of_tpdo_3(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_3_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Event timer: maximum time between two transmissions of an asynchronous PDO.
+        ///
+        /// Event timer of TPDO 3: Unit ms, 0x1802:05, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_3_communication_parameter::EVENT_TIMER_OF_TPDO_3`].
+        pub fn event_timer_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
+            rt::Item::at(
+                transmit_pdo_3_communication_parameter::EVENT_TIMER_OF_TPDO_3,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 4 Communication Parameter.
     ///
     /// RECORD 0x1803.
-    pub mod transmit_pdo_4_communication_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_4_communication_parameter {}
+    impl transmit_pdo_4_communication_parameter {
         /// Number of entries of TPDO 4: 0x1803:00, UNSIGNED8, read-only.
         /// Accessor: [`TransmitPdo4CommunicationParameterAccessors::number_of_entries_of_tpdo_4`].
         ///
@@ -16018,13 +16003,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_4: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_4: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x1803,
             0x00,
             "Number of entries of TPDO 4",
         );
         /// COB-ID of TPDO 4: 0x1803:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4CommunicationParameterAccessors::cob_id_of_tpdo_4`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
+        /// Accessor: [`TransmitPdo4CommunicationParameterAccessors::cob_id_of_tpdo_4`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
         ///
         /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
         ///
@@ -16033,24 +16018,22 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const COB_ID_OF_TPDO_4: super::ReadWrite<
-            super::super::types::TransmitPdoIdentifier,
-        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
+        pub const COB_ID_OF_TPDO_4: ReadWrite<super::types::TransmitPdoIdentifier> = ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1803,
             0x01,
             "COB-ID of TPDO 4",
         );
         /// Transmission type of TPDO 4: 0x1803:02, UNSIGNED8, read-write.
-        /// Accessor: [`TransmitPdo4CommunicationParameterAccessors::transmission_type_of_tpdo_4`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TransmitPdo4CommunicationParameterAccessors::transmission_type_of_tpdo_4`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const TRANSMISSION_TYPE_OF_TPDO_4: super::ReadWrite<
-            super::super::types::TransmissionType,
-        > = super::ReadWriteNamedTransmissionType::shared_object(
+        pub const TRANSMISSION_TYPE_OF_TPDO_4: ReadWrite<
+            super::types::TransmissionType,
+        > = ReadWriteNamedTransmissionType::shared_object(
             0x1803,
             0x02,
             "Transmission type of TPDO 4",
@@ -16063,7 +16046,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const INHIBIT_TIME_OF_TPDO_4: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
+        pub const INHIBIT_TIME_OF_TPDO_4: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x03),
             "Inhibit time of TPDO 4",
             rt::Range::Full,
@@ -16079,7 +16062,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: Oggetti opzionali.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_4: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x1803,
             0x04,
             "Compatibility entry of TPDO 4",
@@ -16094,9 +16077,7 @@ pub mod objects {
         /// Available since firmware 3\.05.
         ///
         /// Manual: Oggetti opzionali; Process data exchange with PDOs.
-        pub const EVENT_TIMER_OF_TPDO_4: super::ReadWrite<
-            rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        > = super::ReadWriteU16Times1Per1OrNone0::new(
+        pub const EVENT_TIMER_OF_TPDO_4: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x05),
             "Event timer of TPDO 4",
             rt::Range::Full,
@@ -16104,76 +16085,83 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Transmit PDO 4 Communication Parameter: 0x1803.
-        pub struct TransmitPdo4CommunicationParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 4 Communication Parameter: 0x1803.
+    pub struct TransmitPdo4CommunicationParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo4CommunicationParameterAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries of TPDO 4: 0x1803:00, UNSIGNED8, read-only.
+        /// Constant: [`transmit_pdo_4_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_4`].
+        pub fn number_of_entries_of_tpdo_4(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_4_communication_parameter::NUMBER_OF_ENTRIES_OF_TPDO_4,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo4CommunicationParameterAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries of TPDO 4: 0x1803:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_4`].
-            pub fn number_of_entries_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_TPDO_4.at(self.client)
-            }
-            /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
-            ///
-            /// COB-ID of TPDO 4: 0x1803:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_OF_TPDO_4`]. Value type: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
-            pub fn cob_id_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmitPdoIdentifier,
-            > {
-                COB_ID_OF_TPDO_4.at(self.client)
-            }
-            /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
-            ///
-            /// Transmission type of TPDO 4: 0x1803:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_4`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
-                TRANSMISSION_TYPE_OF_TPDO_4.at(self.client)
-            }
-            /// Inhibit time: minimum time between two transmissions of the PDO.
-            ///
-            /// Inhibit time of TPDO 4: 1 LSB = 100 µs, 0x1803:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME_OF_TPDO_4`].
-            pub fn inhibit_time_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
-                INHIBIT_TIME_OF_TPDO_4.at(self.client)
-            }
-            /// Reserved sub-index, for compatibility.
-            ///
-            /// Compatibility entry of TPDO 4: 0x1803:04, UNSIGNED8, read-write.
-            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_4`].
-            pub fn compatibility_entry_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                COMPATIBILITY_ENTRY_OF_TPDO_4.at(self.client)
-            }
-            /// Event timer: maximum time between two transmissions of an asynchronous PDO.
-            ///
-            /// Event timer of TPDO 4: Unit ms, 0x1803:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER_OF_TPDO_4`].
-            pub fn event_timer_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
-                EVENT_TIMER_OF_TPDO_4.at(self.client)
-            }
+        /// COB-ID of the PDO. The PDO is disabled while bit 31 is 1.
+        ///
+        /// COB-ID of TPDO 4: 0x1803:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_communication_parameter::COB_ID_OF_TPDO_4`]. Value type: [`TransmitPdoIdentifier`](super::types::TransmitPdoIdentifier).
+        pub fn cob_id_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmitPdoIdentifier> {
+            transmit_pdo_4_communication_parameter::COB_ID_OF_TPDO_4.at(self.client)
+        }
+        /// Transmission type: selects whether the drive transmits the PDO at SYNC, on an event or by a timer.
+        ///
+        /// Transmission type of TPDO 4: 0x1803:02, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_4`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::TransmissionType> {
+            rt::Item::at(
+                transmit_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Inhibit time: minimum time between two transmissions of the PDO.
+        ///
+        /// Inhibit time of TPDO 4: 1 LSB = 100 µs, 0x1803:03, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_4_communication_parameter::INHIBIT_TIME_OF_TPDO_4`].
+        pub fn inhibit_time_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
+            rt::Item::at(
+                transmit_pdo_4_communication_parameter::INHIBIT_TIME_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Reserved sub-index, for compatibility.
+        ///
+        /// Compatibility entry of TPDO 4: 0x1803:04, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_4_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_4`].
+        pub fn compatibility_entry_of_tpdo_4(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_4_communication_parameter::COMPATIBILITY_ENTRY_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Event timer: maximum time between two transmissions of an asynchronous PDO.
+        ///
+        /// Event timer of TPDO 4: Unit ms, 0x1803:05, UNSIGNED16, read-write.
+        /// Constant: [`transmit_pdo_4_communication_parameter::EVENT_TIMER_OF_TPDO_4`].
+        pub fn event_timer_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
+            rt::Item::at(
+                transmit_pdo_4_communication_parameter::EVENT_TIMER_OF_TPDO_4,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 1 Mapping Parameter.
     ///
     /// ARRAY 0x1A00.
-    pub mod transmit_pdo_1_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_1_mapping_parameter {}
+    impl transmit_pdo_1_mapping_parameter {
         /// Number of mapped objects of TPDO 1: At most 8, 0x1A00:00, UNSIGNED8, read-write.
         /// Accessor: [`TransmitPdo1MappingParameterAccessors::number_of_mapped_objects_of_tpdo_1`].
         ///
@@ -16184,7 +16172,7 @@ pub mod objects {
         /// On EtherCAT: default 1. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A00, 0x00),
             "Number of mapped objects of TPDO 1",
             rt::Range::To(8),
@@ -16193,204 +16181,215 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of TPDO 1: 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_1_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_1_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// On EtherCAT: default 1614872592. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x01,
             "Mapped object 1 of TPDO 1",
         );
         /// Mapped object 2 of TPDO 1: 0x1A00:02, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_2_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_2_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x02,
             "Mapped object 2 of TPDO 1",
         );
         /// Mapped object 3 of TPDO 1: 0x1A00:03, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_3_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_3_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x03,
             "Mapped object 3 of TPDO 1",
         );
         /// Mapped object 4 of TPDO 1: 0x1A00:04, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_4_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_4_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x04,
             "Mapped object 4 of TPDO 1",
         );
         /// Mapped object 5 of TPDO 1: 0x1A00:05, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_5_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_5_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x05,
             "Mapped object 5 of TPDO 1",
         );
         /// Mapped object 6 of TPDO 1: 0x1A00:06, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_6_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_6_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x06,
             "Mapped object 6 of TPDO 1",
         );
         /// Mapped object 7 of TPDO 1: 0x1A00:07, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_7_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_7_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x07,
             "Mapped object 7 of TPDO 1",
         );
         /// Mapped object 8 of TPDO 1: 0x1A00:08, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_8_of_tpdo_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo1MappingParameterAccessors::mapped_object_8_of_tpdo_1`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to TPDO 1: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_TPDO_1: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_TPDO_1: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x08,
             "Mapped object 8 of TPDO 1",
         );
-        /// Accessors for the entries of the object. Transmit PDO 1 Mapping Parameter: 0x1A00.
-        pub struct TransmitPdo1MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 1 Mapping Parameter: 0x1A00.
+    pub struct TransmitPdo1MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo1MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to TPDO 1. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of TPDO 1: At most 8, 0x1A00:00, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1`].
+        pub fn number_of_mapped_objects_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo1MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to TPDO 1. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of TPDO 1: At most 8, 0x1A00:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1`].
-            pub fn number_of_mapped_objects_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1.at(self.client)
-            }
-            /// First object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of TPDO 1: 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_TPDO_1.at(self.client)
-            }
-            /// Second object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of TPDO 1: 0x1A00:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_TPDO_1.at(self.client)
-            }
-            /// Third object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of TPDO 1: 0x1A00:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_TPDO_1.at(self.client)
-            }
-            /// Fourth object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of TPDO 1: 0x1A00:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_TPDO_1.at(self.client)
-            }
-            /// Fifth object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of TPDO 1: 0x1A00:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_TPDO_1.at(self.client)
-            }
-            /// Sixth object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of TPDO 1: 0x1A00:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_TPDO_1.at(self.client)
-            }
-            /// Seventh object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of TPDO 1: 0x1A00:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_TPDO_1.at(self.client)
-            }
-            /// Eighth object mapped to TPDO 1: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of TPDO 1: 0x1A00:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_1`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_tpdo_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_TPDO_1.at(self.client)
-            }
+        /// First object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of TPDO 1: 0x1A00:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Second object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of TPDO 1: 0x1A00:02, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Third object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of TPDO 1: 0x1A00:03, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of TPDO 1: 0x1A00:04, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of TPDO 1: 0x1A00:05, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of TPDO 1: 0x1A00:06, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of TPDO 1: 0x1A00:07, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_1,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to TPDO 1: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of TPDO 1: 0x1A00:08, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_1`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_tpdo_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_1,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 2 Mapping Parameter.
     ///
     /// ARRAY 0x1A01.
-    pub mod transmit_pdo_2_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_2_mapping_parameter {}
+    impl transmit_pdo_2_mapping_parameter {
         /// Number of mapped objects of TPDO 2: At most 8, 0x1A01:00, UNSIGNED8, read-write.
         /// Accessor: [`TransmitPdo2MappingParameterAccessors::number_of_mapped_objects_of_tpdo_2`].
         ///
@@ -16399,7 +16398,7 @@ pub mod objects {
         /// Writing 0 clears the mapping, so that its entries can be written.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A01, 0x00),
             "Number of mapped objects of TPDO 2",
             rt::Range::To(8),
@@ -16408,208 +16407,219 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of TPDO 2: 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_1_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_1_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// On EtherCAT: default 1614872592. Manual: PDO.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x01,
             "Mapped object 1 of TPDO 2",
         );
         /// Mapped object 2 of TPDO 2: 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_2_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_2_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali; PDO.
         ///
         /// Note: On EtherCAT, the default mapping has Modes of Operation Display with two bytes, but the object 0x6061 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1A01 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
-        pub const MAPPED_OBJECT_2_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x02,
             "Mapped object 2 of TPDO 2",
         );
         /// Mapped object 3 of TPDO 2: 0x1A01:03, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_3_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_3_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x03,
             "Mapped object 3 of TPDO 2",
         );
         /// Mapped object 4 of TPDO 2: 0x1A01:04, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_4_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_4_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x04,
             "Mapped object 4 of TPDO 2",
         );
         /// Mapped object 5 of TPDO 2: 0x1A01:05, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_5_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_5_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x05,
             "Mapped object 5 of TPDO 2",
         );
         /// Mapped object 6 of TPDO 2: 0x1A01:06, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_6_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_6_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x06,
             "Mapped object 6 of TPDO 2",
         );
         /// Mapped object 7 of TPDO 2: 0x1A01:07, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_7_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_7_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x07,
             "Mapped object 7 of TPDO 2",
         );
         /// Mapped object 8 of TPDO 2: 0x1A01:08, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_8_of_tpdo_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo2MappingParameterAccessors::mapped_object_8_of_tpdo_2`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to TPDO 2: index, sub-index and length in bits.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_TPDO_2: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_TPDO_2: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x08,
             "Mapped object 8 of TPDO 2",
         );
-        /// Accessors for the entries of the object. Transmit PDO 2 Mapping Parameter: 0x1A01.
-        pub struct TransmitPdo2MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 2 Mapping Parameter: 0x1A01.
+    pub struct TransmitPdo2MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo2MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to TPDO 2. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of TPDO 2: At most 8, 0x1A01:00, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2`].
+        pub fn number_of_mapped_objects_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo2MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to TPDO 2. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of TPDO 2: At most 8, 0x1A01:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2`].
-            pub fn number_of_mapped_objects_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2.at(self.client)
-            }
-            /// First object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of TPDO 2: 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_TPDO_2.at(self.client)
-            }
-            /// Second object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of TPDO 2: 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            ///
-            /// Note: On EtherCAT, the default mapping has Modes of Operation Display with two bytes, but the object 0x6061 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1A01 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
-            pub fn mapped_object_2_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_TPDO_2.at(self.client)
-            }
-            /// Third object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of TPDO 2: 0x1A01:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_TPDO_2.at(self.client)
-            }
-            /// Fourth object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of TPDO 2: 0x1A01:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_TPDO_2.at(self.client)
-            }
-            /// Fifth object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of TPDO 2: 0x1A01:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_TPDO_2.at(self.client)
-            }
-            /// Sixth object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of TPDO 2: 0x1A01:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_TPDO_2.at(self.client)
-            }
-            /// Seventh object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of TPDO 2: 0x1A01:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_TPDO_2.at(self.client)
-            }
-            /// Eighth object mapped to TPDO 2: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of TPDO 2: 0x1A01:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_2`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_tpdo_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_TPDO_2.at(self.client)
-            }
+        /// First object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of TPDO 2: 0x1A01:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Second object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of TPDO 2: 0x1A01:02, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        ///
+        /// Note: On EtherCAT, the default mapping has Modes of Operation Display with two bytes, but the object 0x6061 has one byte. Assumed: this table gives no default values for the second entry and the number of entries of 0x1A01 (two default mappings are possible: one entry of 16 bits, or one entry of 8 bits and 8 bits of padding). Manual: Oggetti opzionali; PDO.
+        pub fn mapped_object_2_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Third object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of TPDO 2: 0x1A01:03, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of TPDO 2: 0x1A01:04, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of TPDO 2: 0x1A01:05, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of TPDO 2: 0x1A01:06, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of TPDO 2: 0x1A01:07, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_2,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to TPDO 2: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of TPDO 2: 0x1A01:08, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_2`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_tpdo_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_2_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_2,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 3 Mapping Parameter.
     ///
     /// ARRAY 0x1A02.
-    pub mod transmit_pdo_3_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_3_mapping_parameter {}
+    impl transmit_pdo_3_mapping_parameter {
         /// Number of mapped objects of TPDO 3: At most 8, 0x1A02:00, UNSIGNED8, read-write.
         /// Accessor: [`TransmitPdo3MappingParameterAccessors::number_of_mapped_objects_of_tpdo_3`].
         ///
@@ -16622,7 +16632,7 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A02, 0x00),
             "Number of mapped objects of TPDO 3",
             rt::Range::To(8),
@@ -16631,7 +16641,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of TPDO 3: 0x1A02:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_1_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_1_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to TPDO 3: index, sub-index and length in bits.
         ///
@@ -16640,15 +16650,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x01,
             "Mapped object 1 of TPDO 3",
         );
         /// Mapped object 2 of TPDO 3: 0x1A02:02, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_2_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_2_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to TPDO 3: index, sub-index and length in bits.
         ///
@@ -16657,196 +16665,209 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x02,
             "Mapped object 2 of TPDO 3",
         );
         /// Mapped object 3 of TPDO 3: 0x1A02:03, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_3_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_3_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x03,
             "Mapped object 3 of TPDO 3",
         );
         /// Mapped object 4 of TPDO 3: 0x1A02:04, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_4_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_4_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x04,
             "Mapped object 4 of TPDO 3",
         );
         /// Mapped object 5 of TPDO 3: 0x1A02:05, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_5_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_5_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x05,
             "Mapped object 5 of TPDO 3",
         );
         /// Mapped object 6 of TPDO 3: 0x1A02:06, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_6_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_6_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x06,
             "Mapped object 6 of TPDO 3",
         );
         /// Mapped object 7 of TPDO 3: 0x1A02:07, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_7_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_7_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x07,
             "Mapped object 7 of TPDO 3",
         );
         /// Mapped object 8 of TPDO 3: 0x1A02:08, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_8_of_tpdo_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo3MappingParameterAccessors::mapped_object_8_of_tpdo_3`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to TPDO 3: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_TPDO_3: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_TPDO_3: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x08,
             "Mapped object 8 of TPDO 3",
         );
-        /// Accessors for the entries of the object. Transmit PDO 3 Mapping Parameter: 0x1A02.
-        pub struct TransmitPdo3MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 3 Mapping Parameter: 0x1A02.
+    pub struct TransmitPdo3MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo3MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to TPDO 3. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of TPDO 3: At most 8, 0x1A02:00, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3`].
+        pub fn number_of_mapped_objects_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo3MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to TPDO 3. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of TPDO 3: At most 8, 0x1A02:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3`].
-            pub fn number_of_mapped_objects_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3.at(self.client)
-            }
-            /// First object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of TPDO 3: 0x1A02:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_TPDO_3.at(self.client)
-            }
-            /// Second object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of TPDO 3: 0x1A02:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_TPDO_3.at(self.client)
-            }
-            /// Third object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of TPDO 3: 0x1A02:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_TPDO_3.at(self.client)
-            }
-            /// Fourth object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of TPDO 3: 0x1A02:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_TPDO_3.at(self.client)
-            }
-            /// Fifth object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of TPDO 3: 0x1A02:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_TPDO_3.at(self.client)
-            }
-            /// Sixth object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of TPDO 3: 0x1A02:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_TPDO_3.at(self.client)
-            }
-            /// Seventh object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of TPDO 3: 0x1A02:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_TPDO_3.at(self.client)
-            }
-            /// Eighth object mapped to TPDO 3: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of TPDO 3: 0x1A02:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_3`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_tpdo_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_TPDO_3.at(self.client)
-            }
+        /// First object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of TPDO 3: 0x1A02:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Second object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of TPDO 3: 0x1A02:02, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Third object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of TPDO 3: 0x1A02:03, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of TPDO 3: 0x1A02:04, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of TPDO 3: 0x1A02:05, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of TPDO 3: 0x1A02:06, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of TPDO 3: 0x1A02:07, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_3,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to TPDO 3: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of TPDO 3: 0x1A02:08, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_3`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_tpdo_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_3_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_3,
+                self.client,
+            )
         }
     }
     /// Transmit PDO 4 Mapping Parameter.
     ///
     /// ARRAY 0x1A03.
-    pub mod transmit_pdo_4_mapping_parameter {
-        use ::lexibus as rt;
+    pub enum transmit_pdo_4_mapping_parameter {}
+    impl transmit_pdo_4_mapping_parameter {
         /// Number of mapped objects of TPDO 4: At most 8, 0x1A03:00, UNSIGNED8, read-write.
         /// Accessor: [`TransmitPdo4MappingParameterAccessors::number_of_mapped_objects_of_tpdo_4`].
         ///
@@ -16859,7 +16880,7 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4: ReadWrite<u8> = ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A03, 0x00),
             "Number of mapped objects of TPDO 4",
             rt::Range::To(8),
@@ -16868,7 +16889,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1 of TPDO 4: 0x1A03:01, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_1_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_1_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// First object mapped to TPDO 4: index, sub-index and length in bits.
         ///
@@ -16877,15 +16898,13 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_1_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_1_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x01,
             "Mapped object 1 of TPDO 4",
         );
         /// Mapped object 2 of TPDO 4: 0x1A03:02, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_2_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_2_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Second object mapped to TPDO 4: index, sub-index and length in bits.
         ///
@@ -16894,203 +16913,216 @@ pub mod objects {
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_2_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_2_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x02,
             "Mapped object 2 of TPDO 4",
         );
         /// Mapped object 3 of TPDO 4: 0x1A03:03, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_3_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_3_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Third object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_3_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_3_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x03,
             "Mapped object 3 of TPDO 4",
         );
         /// Mapped object 4 of TPDO 4: 0x1A03:04, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_4_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_4_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fourth object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_4_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_4_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x04,
             "Mapped object 4 of TPDO 4",
         );
         /// Mapped object 5 of TPDO 4: 0x1A03:05, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_5_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_5_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Fifth object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_5_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_5_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x05,
             "Mapped object 5 of TPDO 4",
         );
         /// Mapped object 6 of TPDO 4: 0x1A03:06, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_6_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_6_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Sixth object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_6_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_6_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x06,
             "Mapped object 6 of TPDO 4",
         );
         /// Mapped object 7 of TPDO 4: 0x1A03:07, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_7_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_7_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Seventh object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_7_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_7_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x07,
             "Mapped object 7 of TPDO 4",
         );
         /// Mapped object 8 of TPDO 4: 0x1A03:08, UNSIGNED32, read-write.
-        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_8_of_tpdo_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
+        /// Accessor: [`TransmitPdo4MappingParameterAccessors::mapped_object_8_of_tpdo_4`]. Value type: [`MappedObject`](super::types::MappedObject).
         ///
         /// Eighth object mapped to TPDO 4: index, sub-index and length in bits.
         ///
         /// Available since firmware 3\.00.
         ///
         /// Manual: Oggetti opzionali.
-        pub const MAPPED_OBJECT_8_OF_TPDO_4: super::ReadWrite<
-            super::super::types::MappedObject,
-        > = super::ReadWriteNamedMappedObject::shared_object(
+        pub const MAPPED_OBJECT_8_OF_TPDO_4: ReadWrite<super::types::MappedObject> = ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x08,
             "Mapped object 8 of TPDO 4",
         );
-        /// Accessors for the entries of the object. Transmit PDO 4 Mapping Parameter: 0x1A03.
-        pub struct TransmitPdo4MappingParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Transmit PDO 4 Mapping Parameter: 0x1A03.
+    pub struct TransmitPdo4MappingParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TransmitPdo4MappingParameterAccessors<'_, C> {
+        /// Number of objects mapped to TPDO 4. Writing 0 clears the mapping.
+        ///
+        /// Number of mapped objects of TPDO 4: At most 8, 0x1A03:00, UNSIGNED8, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4`].
+        pub fn number_of_mapped_objects_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4,
+                self.client,
+            )
         }
-        impl<C> TransmitPdo4MappingParameterAccessors<'_, C> {
-            /// Number of objects mapped to TPDO 4. Writing 0 clears the mapping.
-            ///
-            /// Number of mapped objects of TPDO 4: At most 8, 0x1A03:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4`].
-            pub fn number_of_mapped_objects_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4.at(self.client)
-            }
-            /// First object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 1 of TPDO 4: 0x1A03:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_1_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_1_OF_TPDO_4.at(self.client)
-            }
-            /// Second object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 2 of TPDO 4: 0x1A03:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_2_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_2_OF_TPDO_4.at(self.client)
-            }
-            /// Third object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 3 of TPDO 4: 0x1A03:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_3_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_3_OF_TPDO_4.at(self.client)
-            }
-            /// Fourth object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 4 of TPDO 4: 0x1A03:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_4_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_4_OF_TPDO_4.at(self.client)
-            }
-            /// Fifth object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 5 of TPDO 4: 0x1A03:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_5_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_5_OF_TPDO_4.at(self.client)
-            }
-            /// Sixth object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 6 of TPDO 4: 0x1A03:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_6_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_6_OF_TPDO_4.at(self.client)
-            }
-            /// Seventh object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 7 of TPDO 4: 0x1A03:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_7_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_7_OF_TPDO_4.at(self.client)
-            }
-            /// Eighth object mapped to TPDO 4: index, sub-index and length in bits.
-            ///
-            /// Mapped object 8 of TPDO 4: 0x1A03:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_4`]. Value type: [`MappedObject`](super::super::types::MappedObject).
-            pub fn mapped_object_8_of_tpdo_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
-                MAPPED_OBJECT_8_OF_TPDO_4.at(self.client)
-            }
+        /// First object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 1 of TPDO 4: 0x1A03:01, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_1_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Second object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 2 of TPDO 4: 0x1A03:02, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_2_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Third object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 3 of TPDO 4: 0x1A03:03, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_3_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_3_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Fourth object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 4 of TPDO 4: 0x1A03:04, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_4_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_4_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Fifth object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 5 of TPDO 4: 0x1A03:05, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_5_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_5_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Sixth object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 6 of TPDO 4: 0x1A03:06, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_6_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_6_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Seventh object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 7 of TPDO 4: 0x1A03:07, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_7_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_7_OF_TPDO_4,
+                self.client,
+            )
+        }
+        /// Eighth object mapped to TPDO 4: index, sub-index and length in bits.
+        ///
+        /// Mapped object 8 of TPDO 4: 0x1A03:08, UNSIGNED32, read-write.
+        /// Constant: [`transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_4`]. Value type: [`MappedObject`](super::types::MappedObject).
+        pub fn mapped_object_8_of_tpdo_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::MappedObject> {
+            rt::Item::at(
+                transmit_pdo_4_mapping_parameter::MAPPED_OBJECT_8_OF_TPDO_4,
+                self.client,
+            )
         }
     }
     /// RxPDO Assign.
     ///
     /// ARRAY 0x1C12.
-    pub mod rx_pdo_assign {
-        use ::lexibus as rt;
+    pub enum rx_pdo_assign {}
+    impl rx_pdo_assign {
         /// Number of RxPDOs: Default 1, 0x1C12:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdoAssignAccessors::number_of_rx_pdos`].
         ///
         /// Number of assigned RxPDOs.
         ///
         /// Manual: PDO.
-        pub const NUMBER_OF_RX_PDOS: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::coe_object_with_default(
+        pub const NUMBER_OF_RX_PDOS: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::coe_object_with_default(
             0x1C12,
             0x00,
             "Number of RxPDOs",
@@ -17102,7 +17134,7 @@ pub mod objects {
         /// First assigned RxPDO: index of its mapping object.
         ///
         /// Manual: PDO.
-        pub const FIRST_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
+        pub const FIRST_RX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object_with_default(
             0x1C12,
             0x01,
             "First RxPDO",
@@ -17114,7 +17146,7 @@ pub mod objects {
         /// Second assigned RxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const SECOND_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const SECOND_RX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x02,
             "Second RxPDO",
@@ -17125,7 +17157,7 @@ pub mod objects {
         /// Third assigned RxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const THIRD_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const THIRD_RX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x03,
             "Third RxPDO",
@@ -17136,75 +17168,65 @@ pub mod objects {
         /// Fourth assigned RxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const FOURTH_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const FOURTH_RX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x04,
             "Fourth RxPDO",
         );
-        /// Accessors for the entries of the object. RxPDO Assign: 0x1C12.
-        pub struct RxPdoAssignAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO Assign: 0x1C12.
+    pub struct RxPdoAssignAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdoAssignAccessors<'_, C> {
+        /// Number of assigned RxPDOs.
+        ///
+        /// Number of RxPDOs: Default 1, 0x1C12:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo_assign::NUMBER_OF_RX_PDOS`].
+        pub fn number_of_rx_pdos(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            rx_pdo_assign::NUMBER_OF_RX_PDOS.at(self.client)
         }
-        impl<C> RxPdoAssignAccessors<'_, C> {
-            /// Number of assigned RxPDOs.
-            ///
-            /// Number of RxPDOs: Default 1, 0x1C12:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_RX_PDOS`].
-            pub fn number_of_rx_pdos(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_RX_PDOS.at(self.client)
-            }
-            /// First assigned RxPDO: index of its mapping object.
-            ///
-            /// First RxPDO: Default 0x1600, 0x1C12:01, UNSIGNED16, read-write.
-            /// Constant: [`FIRST_RX_PDO`].
-            pub fn first_rx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                FIRST_RX_PDO.at(self.client)
-            }
-            /// Second assigned RxPDO: index of its mapping object.
-            ///
-            /// Second RxPDO: 0x1C12:02, UNSIGNED16, read-write.
-            /// Constant: [`SECOND_RX_PDO`].
-            pub fn second_rx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                SECOND_RX_PDO.at(self.client)
-            }
-            /// Third assigned RxPDO: index of its mapping object.
-            ///
-            /// Third RxPDO: 0x1C12:03, UNSIGNED16, read-write.
-            /// Constant: [`THIRD_RX_PDO`].
-            pub fn third_rx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                THIRD_RX_PDO.at(self.client)
-            }
-            /// Fourth assigned RxPDO: index of its mapping object.
-            ///
-            /// Fourth RxPDO: 0x1C12:04, UNSIGNED16, read-write.
-            /// Constant: [`FOURTH_RX_PDO`].
-            pub fn fourth_rx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                FOURTH_RX_PDO.at(self.client)
-            }
+        /// First assigned RxPDO: index of its mapping object.
+        ///
+        /// First RxPDO: Default 0x1600, 0x1C12:01, UNSIGNED16, read-write.
+        /// Constant: [`rx_pdo_assign::FIRST_RX_PDO`].
+        pub fn first_rx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            rx_pdo_assign::FIRST_RX_PDO.at(self.client)
+        }
+        /// Second assigned RxPDO: index of its mapping object.
+        ///
+        /// Second RxPDO: 0x1C12:02, UNSIGNED16, read-write.
+        /// Constant: [`rx_pdo_assign::SECOND_RX_PDO`].
+        pub fn second_rx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            rx_pdo_assign::SECOND_RX_PDO.at(self.client)
+        }
+        /// Third assigned RxPDO: index of its mapping object.
+        ///
+        /// Third RxPDO: 0x1C12:03, UNSIGNED16, read-write.
+        /// Constant: [`rx_pdo_assign::THIRD_RX_PDO`].
+        pub fn third_rx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            rx_pdo_assign::THIRD_RX_PDO.at(self.client)
+        }
+        /// Fourth assigned RxPDO: index of its mapping object.
+        ///
+        /// Fourth RxPDO: 0x1C12:04, UNSIGNED16, read-write.
+        /// Constant: [`rx_pdo_assign::FOURTH_RX_PDO`].
+        pub fn fourth_rx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            rx_pdo_assign::FOURTH_RX_PDO.at(self.client)
         }
     }
     /// TxPDO Assign.
     ///
     /// ARRAY 0x1C13.
-    pub mod tx_pdo_assign {
-        use ::lexibus as rt;
+    pub enum tx_pdo_assign {}
+    impl tx_pdo_assign {
         /// Number of TxPDOs: Default 1, 0x1C13:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdoAssignAccessors::number_of_tx_pdos`].
         ///
         /// Number of assigned TxPDOs.
         ///
         /// Manual: PDO.
-        pub const NUMBER_OF_TX_PDOS: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::coe_object_with_default(
+        pub const NUMBER_OF_TX_PDOS: ReadWrite<u8, rt::OnCoE> = ReadWriteU8OnCoE::coe_object_with_default(
             0x1C13,
             0x00,
             "Number of TxPDOs",
@@ -17216,7 +17238,7 @@ pub mod objects {
         /// First assigned TxPDO: index of its mapping object.
         ///
         /// Manual: PDO.
-        pub const FIRST_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
+        pub const FIRST_TX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object_with_default(
             0x1C13,
             0x01,
             "First TxPDO",
@@ -17228,7 +17250,7 @@ pub mod objects {
         /// Second assigned TxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const SECOND_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const SECOND_TX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x02,
             "Second TxPDO",
@@ -17239,7 +17261,7 @@ pub mod objects {
         /// Third assigned TxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const THIRD_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const THIRD_TX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x03,
             "Third TxPDO",
@@ -17250,74 +17272,65 @@ pub mod objects {
         /// Fourth assigned TxPDO: index of its mapping object.
         ///
         /// Manual: Utilizzo degli Slots; Mappatura dinamica PDO.
-        pub const FOURTH_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
+        pub const FOURTH_TX_PDO: ReadWrite<u16, rt::OnCoE> = ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x04,
             "Fourth TxPDO",
         );
-        /// Accessors for the entries of the object. TxPDO Assign: 0x1C13.
-        pub struct TxPdoAssignAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO Assign: 0x1C13.
+    pub struct TxPdoAssignAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdoAssignAccessors<'_, C> {
+        /// Number of assigned TxPDOs.
+        ///
+        /// Number of TxPDOs: Default 1, 0x1C13:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo_assign::NUMBER_OF_TX_PDOS`].
+        pub fn number_of_tx_pdos(&mut self) -> ReadWriteAccess<'_, C, u8, rt::OnCoE> {
+            tx_pdo_assign::NUMBER_OF_TX_PDOS.at(self.client)
         }
-        impl<C> TxPdoAssignAccessors<'_, C> {
-            /// Number of assigned TxPDOs.
-            ///
-            /// Number of TxPDOs: Default 1, 0x1C13:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_TX_PDOS`].
-            pub fn number_of_tx_pdos(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
-                NUMBER_OF_TX_PDOS.at(self.client)
-            }
-            /// First assigned TxPDO: index of its mapping object.
-            ///
-            /// First TxPDO: Default 0x1A02, 0x1C13:01, UNSIGNED16, read-write.
-            /// Constant: [`FIRST_TX_PDO`].
-            pub fn first_tx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                FIRST_TX_PDO.at(self.client)
-            }
-            /// Second assigned TxPDO: index of its mapping object.
-            ///
-            /// Second TxPDO: 0x1C13:02, UNSIGNED16, read-write.
-            /// Constant: [`SECOND_TX_PDO`].
-            pub fn second_tx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                SECOND_TX_PDO.at(self.client)
-            }
-            /// Third assigned TxPDO: index of its mapping object.
-            ///
-            /// Third TxPDO: 0x1C13:03, UNSIGNED16, read-write.
-            /// Constant: [`THIRD_TX_PDO`].
-            pub fn third_tx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                THIRD_TX_PDO.at(self.client)
-            }
-            /// Fourth assigned TxPDO: index of its mapping object.
-            ///
-            /// Fourth TxPDO: 0x1C13:04, UNSIGNED16, read-write.
-            /// Constant: [`FOURTH_TX_PDO`].
-            pub fn fourth_tx_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
-                FOURTH_TX_PDO.at(self.client)
-            }
+        /// First assigned TxPDO: index of its mapping object.
+        ///
+        /// First TxPDO: Default 0x1A02, 0x1C13:01, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo_assign::FIRST_TX_PDO`].
+        pub fn first_tx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            tx_pdo_assign::FIRST_TX_PDO.at(self.client)
+        }
+        /// Second assigned TxPDO: index of its mapping object.
+        ///
+        /// Second TxPDO: 0x1C13:02, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo_assign::SECOND_TX_PDO`].
+        pub fn second_tx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            tx_pdo_assign::SECOND_TX_PDO.at(self.client)
+        }
+        /// Third assigned TxPDO: index of its mapping object.
+        ///
+        /// Third TxPDO: 0x1C13:03, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo_assign::THIRD_TX_PDO`].
+        pub fn third_tx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            tx_pdo_assign::THIRD_TX_PDO.at(self.client)
+        }
+        /// Fourth assigned TxPDO: index of its mapping object.
+        ///
+        /// Fourth TxPDO: 0x1C13:04, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo_assign::FOURTH_TX_PDO`].
+        pub fn fourth_tx_pdo(&mut self) -> ReadWriteAccess<'_, C, u16, rt::OnCoE> {
+            tx_pdo_assign::FOURTH_TX_PDO.at(self.client)
         }
     }
     /// Drive Parameters Settings.
     ///
     /// ARRAY 0x2000.
-    pub mod drive_parameters_settings {
+    pub enum drive_parameters_settings {}
+    impl drive_parameters_settings {
         /// Number of entries of the parameter window: 0x2000:00, UNSIGNED8, read-only.
         /// Accessor: [`DriveParametersSettingsAccessors::number_of_entries_of_the_parameter_window`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 301. Manual: Oggetti “manufacturer specific”.
-        pub const NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x2000,
             0x00,
             "Number of entries of the parameter window",
@@ -17330,7 +17343,7 @@ pub mod objects {
         /// The device resets the value automatically.
         ///
         /// Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific.
-        pub const PARAMETER_WRITE_ADDRESS: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const PARAMETER_WRITE_ADDRESS: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x2000,
             0x01,
             "Parameter Write Address",
@@ -17343,7 +17356,7 @@ pub mod objects {
         /// Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific.
         ///
         /// Note: The value in the window 0x2000 has 1 byte, but parameters have 16 bits. Assumed: the value in the window 0x2000 has 1 byte, as printed (values above 255 can be transferred through the windows 0x2005 and 0x2006). Manual: Descrizione Manuale; Oggetti “manufacturer specific”.
-        pub const PARAMETER_WRITE_VALUE: super::WriteOnly<u8> = super::WriteOnlyU8::shared_object(
+        pub const PARAMETER_WRITE_VALUE: WriteOnly<u8> = WriteOnlyU8::shared_object(
             0x2000,
             0x02,
             "Parameter Write Value",
@@ -17356,7 +17369,7 @@ pub mod objects {
         /// The device resets the value automatically.
         ///
         /// Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific.
-        pub const PARAMETER_READ_ADDRESS: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
+        pub const PARAMETER_READ_ADDRESS: ReadWrite<u8> = ReadWriteU8::shared_object(
             0x2000,
             0x03,
             "Parameter Read Address",
@@ -17367,61 +17380,58 @@ pub mod objects {
         /// Value read from the parameter.
         ///
         /// Manual: Oggetti “manufacturer specific”.
-        pub const PARAMETER_READ_VALUE: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const PARAMETER_READ_VALUE: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x2000,
             0x04,
             "Parameter Read Value",
         );
-        /// Accessors for the entries of the object. Drive Parameters Settings: 0x2000.
-        pub struct DriveParametersSettingsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Drive Parameters Settings: 0x2000.
+    pub struct DriveParametersSettingsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DriveParametersSettingsAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the parameter window: 0x2000:00, UNSIGNED8, read-only.
+        /// Constant: [`drive_parameters_settings::NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW`].
+        pub fn number_of_entries_of_the_parameter_window(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                drive_parameters_settings::NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW,
+                self.client,
+            )
         }
-        impl<C> DriveParametersSettingsAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the parameter window: 0x2000:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW`].
-            pub fn number_of_entries_of_the_parameter_window(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW.at(self.client)
-            }
-            /// Address of the parameter to write. The drive sets the address to 0 when the write is complete.
-            ///
-            /// Parameter Write Address: 0x2000:01, UNSIGNED8, read-write.
-            /// Constant: [`PARAMETER_WRITE_ADDRESS`].
-            pub fn parameter_write_address(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                PARAMETER_WRITE_ADDRESS.at(self.client)
-            }
-            /// Value to write to the parameter.
-            ///
-            /// Parameter Write Value: 0x2000:02, UNSIGNED8, write-only.
-            /// Constant: [`PARAMETER_WRITE_VALUE`].
-            ///
-            /// Note: The value in the window 0x2000 has 1 byte, but parameters have 16 bits. Assumed: the value in the window 0x2000 has 1 byte, as printed (values above 255 can be transferred through the windows 0x2005 and 0x2006). Manual: Descrizione Manuale; Oggetti “manufacturer specific”.
-            pub fn parameter_write_value(
-                &mut self,
-            ) -> super::WriteOnlyAccess<'_, C, u8> {
-                PARAMETER_WRITE_VALUE.at(self.client)
-            }
-            /// Address of the parameter to read. The drive sets the address to 0 when the value is available.
-            ///
-            /// Parameter Read Address: 0x2000:03, UNSIGNED8, read-write.
-            /// Constant: [`PARAMETER_READ_ADDRESS`].
-            pub fn parameter_read_address(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8> {
-                PARAMETER_READ_ADDRESS.at(self.client)
-            }
-            /// Value read from the parameter.
-            ///
-            /// Parameter Read Value: 0x2000:04, UNSIGNED8, read-only.
-            /// Constant: [`PARAMETER_READ_VALUE`].
-            pub fn parameter_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
-                PARAMETER_READ_VALUE.at(self.client)
-            }
+        /// Address of the parameter to write. The drive sets the address to 0 when the write is complete.
+        ///
+        /// Parameter Write Address: 0x2000:01, UNSIGNED8, read-write.
+        /// Constant: [`drive_parameters_settings::PARAMETER_WRITE_ADDRESS`].
+        pub fn parameter_write_address(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            drive_parameters_settings::PARAMETER_WRITE_ADDRESS.at(self.client)
+        }
+        /// Value to write to the parameter.
+        ///
+        /// Parameter Write Value: 0x2000:02, UNSIGNED8, write-only.
+        /// Constant: [`drive_parameters_settings::PARAMETER_WRITE_VALUE`].
+        ///
+        /// Note: The value in the window 0x2000 has 1 byte, but parameters have 16 bits. Assumed: the value in the window 0x2000 has 1 byte, as printed (values above 255 can be transferred through the windows 0x2005 and 0x2006). Manual: Descrizione Manuale; Oggetti “manufacturer specific”.
+        pub fn parameter_write_value(&mut self) -> WriteOnlyAccess<'_, C, u8> {
+            drive_parameters_settings::PARAMETER_WRITE_VALUE.at(self.client)
+        }
+        /// Address of the parameter to read. The drive sets the address to 0 when the value is available.
+        ///
+        /// Parameter Read Address: 0x2000:03, UNSIGNED8, read-write.
+        /// Constant: [`drive_parameters_settings::PARAMETER_READ_ADDRESS`].
+        pub fn parameter_read_address(&mut self) -> ReadWriteAccess<'_, C, u8> {
+            drive_parameters_settings::PARAMETER_READ_ADDRESS.at(self.client)
+        }
+        /// Value read from the parameter.
+        ///
+        /// Parameter Read Value: 0x2000:04, UNSIGNED8, read-only.
+        /// Constant: [`drive_parameters_settings::PARAMETER_READ_VALUE`].
+        pub fn parameter_read_value(&mut self) -> ReadOnlyAccess<'_, C, u8> {
+            drive_parameters_settings::PARAMETER_READ_VALUE.at(self.client)
         }
     }
     /// IP Set Point 16: Physical value = raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev, 0x2002:00, INTEGER16, write-only, mappable into RPDOs.
@@ -17473,15 +17483,15 @@ pub mod objects {
     /// Drive Variable Read.
     ///
     /// RECORD 0x2005.
-    pub mod drive_variable_read {
-        use ::lexibus as rt;
+    pub enum drive_variable_read {}
+    impl drive_variable_read {
         /// Number of entries of the read window: 0x2005:00, UNSIGNED8, read-only.
         /// Accessor: [`DriveVariableReadAccessors::number_of_entries_of_the_read_window`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 301. Manual: Oggetti “manufacturer specific”.
-        pub const NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x2005,
             0x00,
             "Number of entries of the read window",
@@ -17494,7 +17504,7 @@ pub mod objects {
         /// The device resets the value automatically.
         ///
         /// Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific.
-        pub const VARIABLE_READ_ADDRESS: super::ReadWrite<u16> = super::ReadWriteU16::new(
+        pub const VARIABLE_READ_ADDRESS: ReadWrite<u16> = ReadWriteU16::new(
             rt::OnCanOpenAndCoE::object(0x2005, 0x01),
             "Variable Read Address",
             rt::Range::OneOf(&[(0, 0), (1, 99), (32768, 36863)]),
@@ -17508,56 +17518,54 @@ pub mod objects {
         /// Value read from the register or parameter.
         ///
         /// Manual: Oggetti “manufacturer specific”.
-        pub const VARIABLE_READ_VALUE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_shared_object(
+        pub const VARIABLE_READ_VALUE: ReadOnly<u32> = ReadOnlyU32::flagged_shared_object(
             0x2005,
             0x02,
             "Variable Read Value",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of the object. Drive Variable Read: 0x2005.
-        pub struct DriveVariableReadAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Drive Variable Read: 0x2005.
+    pub struct DriveVariableReadAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DriveVariableReadAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the read window: 0x2005:00, UNSIGNED8, read-only.
+        /// Constant: [`drive_variable_read::NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW`].
+        pub fn number_of_entries_of_the_read_window(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            drive_variable_read::NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW.at(self.client)
         }
-        impl<C> DriveVariableReadAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the read window: 0x2005:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW`].
-            pub fn number_of_entries_of_the_read_window(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW.at(self.client)
-            }
-            /// Address of the register or parameter to read. The drive sets the address to 0 when the value is available.
-            ///
-            /// Variable Read Address: One of 0, 1 to 99, 32768 to 36863, 0x2005:01, UNSIGNED16, read-write, mappable into any PDO.
-            /// Constant: [`VARIABLE_READ_ADDRESS`].
-            pub fn variable_read_address(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16> {
-                VARIABLE_READ_ADDRESS.at(self.client)
-            }
-            /// Value read from the register or parameter.
-            ///
-            /// Variable Read Value: 0x2005:02, UNSIGNED32, read-only, mappable into TPDOs.
-            /// Constant: [`VARIABLE_READ_VALUE`].
-            pub fn variable_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                VARIABLE_READ_VALUE.at(self.client)
-            }
+        /// Address of the register or parameter to read. The drive sets the address to 0 when the value is available.
+        ///
+        /// Variable Read Address: One of 0, 1 to 99, 32768 to 36863, 0x2005:01, UNSIGNED16, read-write, mappable into any PDO.
+        /// Constant: [`drive_variable_read::VARIABLE_READ_ADDRESS`].
+        pub fn variable_read_address(&mut self) -> ReadWriteAccess<'_, C, u16> {
+            drive_variable_read::VARIABLE_READ_ADDRESS.at(self.client)
+        }
+        /// Value read from the register or parameter.
+        ///
+        /// Variable Read Value: 0x2005:02, UNSIGNED32, read-only, mappable into TPDOs.
+        /// Constant: [`drive_variable_read::VARIABLE_READ_VALUE`].
+        pub fn variable_read_value(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            drive_variable_read::VARIABLE_READ_VALUE.at(self.client)
         }
     }
     /// Drive Variable Write.
     ///
     /// RECORD 0x2006.
-    pub mod drive_variable_write {
-        use ::lexibus as rt;
+    pub enum drive_variable_write {}
+    impl drive_variable_write {
         /// Number of entries of the write window: 0x2006:00, UNSIGNED8, read-only.
         /// Accessor: [`DriveVariableWriteAccessors::number_of_entries_of_the_write_window`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 301. Manual: Oggetti “manufacturer specific”.
-        pub const NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x2006,
             0x00,
             "Number of entries of the write window",
@@ -17570,7 +17578,7 @@ pub mod objects {
         /// The device resets the value automatically.
         ///
         /// Manual: Oggetti “manufacturer specific”; Descrizione degli oggetti manufacturer specific.
-        pub const VARIABLE_WRITE_ADDRESS: super::ReadWrite<u16> = super::ReadWriteU16::new(
+        pub const VARIABLE_WRITE_ADDRESS: ReadWrite<u16> = ReadWriteU16::new(
             rt::OnCanOpenAndCoE::object(0x2006, 0x01),
             "Variable Write Address",
             rt::Range::OneOf(&[(0, 0), (1, 99), (32768, 36863)]),
@@ -17586,46 +17594,45 @@ pub mod objects {
         /// Manual: Oggetti “manufacturer specific”.
         ///
         /// Hazard: On CANopen, the master writes the value first, then the address. The EtherCAT text describes the opposite order. Assumed: the write procedure writes the value first, then the address (writing the address starts the transfer. With the address first, the drive would store the previous value). Manual: Descrizione degli oggetti manufacturer specific; Lettura / Scrittura parametri del drive.
-        pub const VARIABLE_WRITE_VALUE: super::ReadWrite<u32> = super::ReadWriteU32::flagged_shared_object(
+        pub const VARIABLE_WRITE_VALUE: ReadWrite<u32> = ReadWriteU32::flagged_shared_object(
             0x2006,
             0x02,
             "Variable Write Value",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of the object. Drive Variable Write: 0x2006.
-        pub struct DriveVariableWriteAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Drive Variable Write: 0x2006.
+    pub struct DriveVariableWriteAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DriveVariableWriteAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the write window: 0x2006:00, UNSIGNED8, read-only.
+        /// Constant: [`drive_variable_write::NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW`].
+        pub fn number_of_entries_of_the_write_window(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                drive_variable_write::NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW,
+                self.client,
+            )
         }
-        impl<C> DriveVariableWriteAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the write window: 0x2006:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW`].
-            pub fn number_of_entries_of_the_write_window(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW.at(self.client)
-            }
-            /// Address of the register or parameter to write. The drive sets the address to 0 when the write is complete.
-            ///
-            /// Variable Write Address: One of 0, 1 to 99, 32768 to 36863, 0x2006:01, UNSIGNED16, read-write, mappable into any PDO.
-            /// Constant: [`VARIABLE_WRITE_ADDRESS`].
-            pub fn variable_write_address(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16> {
-                VARIABLE_WRITE_ADDRESS.at(self.client)
-            }
-            /// Value to write to the register or parameter.
-            ///
-            /// Variable Write Value: 0x2006:02, UNSIGNED32, read-write, mappable into any PDO.
-            /// Constant: [`VARIABLE_WRITE_VALUE`].
-            ///
-            /// Hazard: On CANopen, the master writes the value first, then the address. The EtherCAT text describes the opposite order. Assumed: the write procedure writes the value first, then the address (writing the address starts the transfer. With the address first, the drive would store the previous value). Manual: Descrizione degli oggetti manufacturer specific; Lettura / Scrittura parametri del drive.
-            pub fn variable_write_value(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u32> {
-                VARIABLE_WRITE_VALUE.at(self.client)
-            }
+        /// Address of the register or parameter to write. The drive sets the address to 0 when the write is complete.
+        ///
+        /// Variable Write Address: One of 0, 1 to 99, 32768 to 36863, 0x2006:01, UNSIGNED16, read-write, mappable into any PDO.
+        /// Constant: [`drive_variable_write::VARIABLE_WRITE_ADDRESS`].
+        pub fn variable_write_address(&mut self) -> ReadWriteAccess<'_, C, u16> {
+            drive_variable_write::VARIABLE_WRITE_ADDRESS.at(self.client)
+        }
+        /// Value to write to the register or parameter.
+        ///
+        /// Variable Write Value: 0x2006:02, UNSIGNED32, read-write, mappable into any PDO.
+        /// Constant: [`drive_variable_write::VARIABLE_WRITE_VALUE`].
+        ///
+        /// Hazard: On CANopen, the master writes the value first, then the address. The EtherCAT text describes the opposite order. Assumed: the write procedure writes the value first, then the address (writing the address starts the transfer. With the address first, the drive would store the previous value). Manual: Descrizione degli oggetti manufacturer specific; Lettura / Scrittura parametri del drive.
+        pub fn variable_write_value(&mut self) -> ReadWriteAccess<'_, C, u32> {
+            drive_variable_write::VARIABLE_WRITE_VALUE.at(self.client)
         }
     }
     /// Save Parameters: 0x2007:00, UNSIGNED8, write-only.
@@ -17733,8 +17740,8 @@ pub mod objects {
     /// Feed Constant.
     ///
     /// ARRAY 0x6092.
-    pub mod feed_constant {
-        use ::lexibus as rt;
+    pub enum feed_constant {}
+    impl feed_constant {
         /// Number of entries of the feed constant: 0x6092:00, UNSIGNED8, read-only.
         /// Accessor: [`FeedConstantAccessors::number_of_entries_of_the_feed_constant`].
         ///
@@ -17743,7 +17750,7 @@ pub mod objects {
         /// Description from CiA 402, 11.3.10. Manual: Oggetti opzionali.
         ///
         /// Note: Sub-index 0 has 4 bytes in 0x6092, 0x1003, 0x1010 and 0x6099, but 1 byte in all other objects. Assumed: sub-index 0 of 0x6092 has one byte (DS 301 defines one byte for sub-index 0, and sub-index 0 of most objects has one byte). Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x6092,
             0x00,
             "Number of entries of the feed constant",
@@ -17756,11 +17763,8 @@ pub mod objects {
         /// Non-volatile: stored by the command save.
         ///
         /// Manual: Registri; Oggetti opzionali; Descrizione degli oggetti del Device Profile, feed\_constant: Feed.
-        pub const FEED_CONSTANT: super::ReadWrite<
-            u32,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWriteU32OnCanOpenCoEModbusImageWindows::new(
-            super::location_5(
+        pub const FEED_CONSTANT: ReadWrite<u32, OnCanOpenCoEModbusImageWindows> = ReadWriteU32OnCanOpenCoEModbusImageWindows::new(
+            location_5(
                 rt::Object::new(0x6092, 0x01),
                 rt::Object::new(0x6092, 0x01),
                 rt::Register::high_first(32770, 2).words_per_address(2),
@@ -17778,7 +17782,7 @@ pub mod objects {
         /// Number of motor shaft revolutions to which the feed constant refers. The value is always 1.
         ///
         /// Manual: Oggetti opzionali; Descrizione degli oggetti del Device Profile.
-        pub const SHAFT_REVOLUTIONS: super::ReadOnly<u32> = super::ReadOnlyU32::new(
+        pub const SHAFT_REVOLUTIONS: ReadOnly<u32> = ReadOnlyU32::new(
             rt::OnCanOpenAndCoE::object(0x6092, 0x02),
             "Shaft Revolutions",
             rt::Range::Between(1, 1),
@@ -17786,51 +17790,46 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Feed Constant: 0x6092.
-        pub struct FeedConstantAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Feed Constant: 0x6092.
+    pub struct FeedConstantAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> FeedConstantAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the feed constant: 0x6092:00, UNSIGNED8, read-only.
+        /// Constant: [`feed_constant::NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT`].
+        ///
+        /// Note: Sub-index 0 has 4 bytes in 0x6092, 0x1003, 0x1010 and 0x6099, but 1 byte in all other objects. Assumed: sub-index 0 of 0x6092 has one byte (DS 301 defines one byte for sub-index 0, and sub-index 0 of most objects has one byte). Manual: Oggetti opzionali.
+        pub fn number_of_entries_of_the_feed_constant(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            feed_constant::NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT.at(self.client)
         }
-        impl<C> FeedConstantAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the feed constant: 0x6092:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT`].
-            ///
-            /// Note: Sub-index 0 has 4 bytes in 0x6092, 0x1003, 0x1010 and 0x6099, but 1 byte in all other objects. Assumed: sub-index 0 of 0x6092 has one byte (DS 301 defines one byte for sub-index 0, and sub-index 0 of most objects has one byte). Manual: Oggetti opzionali.
-            pub fn number_of_entries_of_the_feed_constant(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT.at(self.client)
-            }
-            /// Feed constant: user units per motor shaft revolution. The user unit u also determines the units of velocity (u/s) and acceleration (u/s/ms).
-            ///
-            /// feed\_constant: Range 0 to 262143, 0x6092:01, Modbus R02 (holding; wire address 0x8002; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8002 (PROFINET), UNSIGNED32, read-write.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`FEED_CONSTANT`].
-            pub fn feed_constant(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                u32,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                FEED_CONSTANT.at(self.client)
-            }
-            /// Number of motor shaft revolutions to which the feed constant refers. The value is always 1.
-            ///
-            /// Shaft Revolutions: Range 1 to 1, default 1, 0x6092:02, UNSIGNED32, read-only.
-            /// Constant: [`SHAFT_REVOLUTIONS`].
-            pub fn shaft_revolutions(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
-                SHAFT_REVOLUTIONS.at(self.client)
-            }
+        /// Feed constant: user units per motor shaft revolution. The user unit u also determines the units of velocity (u/s) and acceleration (u/s/ms).
+        ///
+        /// feed\_constant: Range 0 to 262143, 0x6092:01, Modbus R02 (holding; wire address 0x8002; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8002 (PROFINET), UNSIGNED32, read-write.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`feed_constant::FEED_CONSTANT`].
+        pub fn feed_constant(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u32, OnCanOpenCoEModbusImageWindows> {
+            feed_constant::FEED_CONSTANT.at(self.client)
+        }
+        /// Number of motor shaft revolutions to which the feed constant refers. The value is always 1.
+        ///
+        /// Shaft Revolutions: Range 1 to 1, default 1, 0x6092:02, UNSIGNED32, read-only.
+        /// Constant: [`feed_constant::SHAFT_REVOLUTIONS`].
+        pub fn shaft_revolutions(&mut self) -> ReadOnlyAccess<'_, C, u32> {
+            feed_constant::SHAFT_REVOLUTIONS.at(self.client)
         }
     }
     /// Homing Speeds.
     ///
     /// RECORD 0x6099.
-    pub mod homing_speeds {
-        use ::lexibus as rt;
+    pub enum homing_speeds {}
+    impl homing_speeds {
         /// Number of entries of the homing speeds: 0x6099:00, UNSIGNED8, read-only.
         /// Accessor: [`HomingSpeedsAccessors::number_of_entries_of_the_homing_speeds`].
         ///
@@ -17839,12 +17838,12 @@ pub mod objects {
         /// Description from CiA 402, 13.3.3. Manual: Oggetti opzionali.
         ///
         /// Note: Sub-index 0 of 0x6099 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x6099 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x6099,
             0x00,
             "Number of entries of the homing speeds",
         );
-        /// homing\_fast\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire address 0x8014; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8014 (PROFINET), INTEGER32, read-write, mappable into any PDO.
+        /// homing\_fast\_speed: Physical value = raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire address 0x8014; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8014 (PROFINET), INTEGER32, read-write, mappable into any PDO.
         /// Accessor: [`HomingSpeedsAccessors::homing_fast_speed`].
         ///
         /// Velocity of the search for the switch during homing.
@@ -17854,11 +17853,11 @@ pub mod objects {
         /// Manual: Registri; Oggetti opzionali; Modo Homing, homing\_fast\_speed: Fast Homing Speed.
         ///
         /// Hazard: The minimum of homing\_fast\_speed is 0x80000000, a negative velocity, but the minimum of homing\_slow\_speed is 0. The manual does not state the effect of a negative velocity. Assumed: homing\_fast\_speed is signed, as printed (the sign of the velocity may select the direction of the search). Manual: Registri.
-        pub const HOMING_FAST_SPEED: super::ReadWrite<
+        pub const HOMING_FAST_SPEED: ReadWrite<
             rt::PerItem<i32, 60>,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            super::location_4(
+            OnCanOpenCoEModbusImageWindows,
+        > = ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
+            location_4(
                 rt::Object::new(0x6099, 0x01),
                 rt::Object::new(0x6099, 0x01),
                 rt::Register::high_first(32788, 2).words_per_address(2),
@@ -17870,7 +17869,7 @@ pub mod objects {
             "rpm",
             rt::Flags::PDO,
         );
-        /// homing\_slow\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire address 0x8015; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8015 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
+        /// homing\_slow\_speed: Physical value = raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire address 0x8015; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8015 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
         /// Accessor: [`HomingSpeedsAccessors::homing_slow_speed`].
         ///
         /// Velocity of the search for the index pulse (marker) during homing.
@@ -17878,11 +17877,11 @@ pub mod objects {
         /// Non-volatile: stored by the command save.
         ///
         /// Manual: Registri; Oggetti opzionali; Modo Homing, homing\_slow\_speed: Slow Homing Speed.
-        pub const HOMING_SLOW_SPEED: super::ReadWrite<
+        pub const HOMING_SLOW_SPEED: ReadWrite<
             rt::PerItem<u32, 60>,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            super::location_5(
+            OnCanOpenCoEModbusImageWindows,
+        > = ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows::new(
+            location_5(
                 rt::Object::new(0x6099, 0x02),
                 rt::Object::new(0x6099, 0x02),
                 rt::Register::high_first(32789, 2).words_per_address(2),
@@ -17894,79 +17893,79 @@ pub mod objects {
             "rpm",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of the object. Homing Speeds: 0x6099.
-        pub struct HomingSpeedsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Homing Speeds: 0x6099.
+    pub struct HomingSpeedsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> HomingSpeedsAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the homing speeds: 0x6099:00, UNSIGNED8, read-only.
+        /// Constant: [`homing_speeds::NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS`].
+        ///
+        /// Note: Sub-index 0 of 0x6099 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x6099 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
+        pub fn number_of_entries_of_the_homing_speeds(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            homing_speeds::NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS.at(self.client)
         }
-        impl<C> HomingSpeedsAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the homing speeds: 0x6099:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS`].
-            ///
-            /// Note: Sub-index 0 of 0x6099 has 4 bytes, but sub-index 0 of most other objects has 1 byte. Assumed: sub-index 0 of 0x6099 has one byte (DS 301 defines one byte for sub-index 0). Manual: Oggetti opzionali.
-            pub fn number_of_entries_of_the_homing_speeds(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS.at(self.client)
-            }
-            /// Velocity of the search for the switch during homing.
-            ///
-            /// homing\_fast\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire address 0x8014; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8014 (PROFINET), INTEGER32, read-write, mappable into any PDO.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`HOMING_FAST_SPEED`].
-            ///
-            /// Hazard: The minimum of homing\_fast\_speed is 0x80000000, a negative velocity, but the minimum of homing\_slow\_speed is 0. The manual does not state the effect of a negative velocity. Assumed: homing\_fast\_speed is signed, as printed (the sign of the velocity may select the direction of the search). Manual: Registri.
-            pub fn homing_fast_speed(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::PerItem<i32, 60>,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                HOMING_FAST_SPEED.at(self.client)
-            }
-            /// Velocity of the search for the index pulse (marker) during homing.
-            ///
-            /// homing\_slow\_speed: Physical value = raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire address 0x8015; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8015 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`HOMING_SLOW_SPEED`].
-            pub fn homing_slow_speed(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::PerItem<u32, 60>,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                HOMING_SLOW_SPEED.at(self.client)
-            }
+        /// Velocity of the search for the switch during homing.
+        ///
+        /// homing\_fast\_speed: Physical value = raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm, range raw \-2147483648 … 2147483647, 0x6099:01, Modbus R20 (holding; wire address 0x8014; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8014 (PROFINET), INTEGER32, read-write, mappable into any PDO.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`homing_speeds::HOMING_FAST_SPEED`].
+        ///
+        /// Hazard: The minimum of homing\_fast\_speed is 0x80000000, a negative velocity, but the minimum of homing\_slow\_speed is 0. The manual does not state the effect of a negative velocity. Assumed: homing\_fast\_speed is signed, as printed (the sign of the velocity may select the direction of the search). Manual: Registri.
+        pub fn homing_fast_speed(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            rt::PerItem<i32, 60>,
+            OnCanOpenCoEModbusImageWindows,
+        > {
+            homing_speeds::HOMING_FAST_SPEED.at(self.client)
+        }
+        /// Velocity of the search for the index pulse (marker) during homing.
+        ///
+        /// homing\_slow\_speed: Physical value = raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm, range raw 0 … 2147483647, 0x6099:02, Modbus R21 (holding; wire address 0x8015; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8015 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`homing_speeds::HOMING_SLOW_SPEED`].
+        pub fn homing_slow_speed(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            rt::PerItem<u32, 60>,
+            OnCanOpenCoEModbusImageWindows,
+        > {
+            homing_speeds::HOMING_SLOW_SPEED.at(self.client)
         }
     }
     /// Interpolation Data Record.
     ///
     /// RECORD 0x60C1.
-    pub mod interpolation_data_record {
-        use ::lexibus as rt;
+    pub enum interpolation_data_record {}
+    impl interpolation_data_record {
         /// Number of entries of the interpolation data: 0x60C1:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationDataRecordAccessors::number_of_entries_of_the_interpolation_data`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 402, 15.4.2. Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x60C1,
             0x00,
             "Number of entries of the interpolation data",
         );
-        /// Position Set-Point: Physical value = raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
-        /// Accessor: [`InterpolationDataRecordAccessors::position_set_point`]. Mapped in [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
+        /// Position Set-Point: Physical value = raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
+        /// Accessor: [`InterpolationDataRecordAccessors::position_set_point`]. Mapped in [`InterpolatedPosition`](super::pdo::InterpolatedPosition).
         ///
         /// Position set-point of the linear interpolator.
         ///
         /// Manual: Oggetti opzionali; Descrizione degli oggetti del Device Profile; Modo interpolatore; 1 more section.
-        pub const POSITION_SET_POINT: super::WriteOnly<rt::PerItem<i32, 1>> = super::WriteOnlyPerItemI32Times1Per1::new(
+        pub const POSITION_SET_POINT: WriteOnly<rt::PerItem<i32, 1>> = WriteOnlyPerItemI32Times1Per1::new(
             rt::OnCanOpenAndCoE::object(0x60C1, 0x01),
             "Position Set-Point",
             rt::Range::Full,
@@ -17974,43 +17973,46 @@ pub mod objects {
             "rev",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
-        pub struct InterpolationDataRecordAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
+    pub struct InterpolationDataRecordAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationDataRecordAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the interpolation data: 0x60C1:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_data_record::NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA`].
+        pub fn number_of_entries_of_the_interpolation_data(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                interpolation_data_record::NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA,
+                self.client,
+            )
         }
-        impl<C> InterpolationDataRecordAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the interpolation data: 0x60C1:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA`].
-            pub fn number_of_entries_of_the_interpolation_data(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA.at(self.client)
-            }
-            /// Position set-point of the linear interpolator.
-            ///
-            /// Position Set-Point: Physical value = raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
-            /// Constant: [`POSITION_SET_POINT`]. Mapped in [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
-            pub fn position_set_point(
-                &mut self,
-            ) -> super::WriteOnlyAccess<'_, C, rt::PerItem<i32, 1>> {
-                POSITION_SET_POINT.at(self.client)
-            }
+        /// Position set-point of the linear interpolator.
+        ///
+        /// Position Set-Point: Physical value = raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev, 0x60C1:01, INTEGER32, write-only, mappable into RPDOs.
+        /// Constant: [`interpolation_data_record::POSITION_SET_POINT`]. Mapped in [`InterpolatedPosition`](super::pdo::InterpolatedPosition).
+        pub fn position_set_point(
+            &mut self,
+        ) -> WriteOnlyAccess<'_, C, rt::PerItem<i32, 1>> {
+            interpolation_data_record::POSITION_SET_POINT.at(self.client)
         }
     }
     /// Interpolation Time Period.
     ///
     /// RECORD 0x60C2.
-    pub mod interpolation_time_period {
-        use ::lexibus as rt;
+    pub enum interpolation_time_period {}
+    impl interpolation_time_period {
         /// Number of entries of the interpolation time: 0x60C2:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationTimePeriodAccessors::number_of_entries_of_the_interpolation_time`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 402, 15.4.3. Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x60C2,
             0x00,
             "Number of entries of the interpolation time",
@@ -18025,11 +18027,8 @@ pub mod objects {
         /// Manual: Registri; Oggetti opzionali; Descrizione degli oggetti del Device Profile; 1 more section, ip\_time\_units: Time Period.
         ///
         /// Note: According to the text, the period of the interpolator is at sub-index 2 of 0x60C2, which is read-only, but the examples write sub-index 1. Assumed: the interpolation period is at sub-index 1 of 0x60C2 (sub-index 2 is read-only, so a master could not set the interpolation period at sub-index 2). Manual: Oggetti opzionali; Descrizione degli oggetti del Device Profile; Modo interpolatore; 1 more section.
-        pub const IP_TIME_UNITS: super::ReadWrite<
-            u8,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-            super::location_5(
+        pub const IP_TIME_UNITS: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+            location_5(
                 rt::Object::new(0x60C2, 0x01),
                 rt::Object::new(0x60C2, 0x01),
                 rt::Register::high_first(32815, 2).words_per_address(2),
@@ -18047,49 +18046,47 @@ pub mod objects {
         /// Exponent of the time unit of sub-index 1, to the base 10: −3 is 10⁻³ s (1 ms). The manual does not state the value of this exponent.
         ///
         /// Description from CiA 402, 15.4.3. Manual: Oggetti opzionali.
-        pub const TIME_INDEX: super::ReadOnly<i8> = super::ReadOnlyI8::shared_object(
+        pub const TIME_INDEX: ReadOnly<i8> = ReadOnlyI8::shared_object(
             0x60C2,
             0x02,
             "Time Index",
         );
-        /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
-        pub struct InterpolationTimePeriodAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
+    pub struct InterpolationTimePeriodAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationTimePeriodAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the interpolation time: 0x60C2:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_time_period::NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME`].
+        pub fn number_of_entries_of_the_interpolation_time(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            rt::Item::at(
+                interpolation_time_period::NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME,
+                self.client,
+            )
         }
-        impl<C> InterpolationTimePeriodAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the interpolation time: 0x60C2:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME`].
-            pub fn number_of_entries_of_the_interpolation_time(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME.at(self.client)
-            }
-            /// Interpolation period: time between two set-points of the interpolator.
-            ///
-            /// ip\_time\_units: Unit ms, range 0 to 255, 0x60C2:01, Modbus R47 (holding; wire address 0x802F; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x802F (PROFINET), UNSIGNED8, read-write.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`IP_TIME_UNITS`].
-            ///
-            /// Note: According to the text, the period of the interpolator is at sub-index 2 of 0x60C2, which is read-only, but the examples write sub-index 1. Assumed: the interpolation period is at sub-index 1 of 0x60C2 (sub-index 2 is read-only, so a master could not set the interpolation period at sub-index 2). Manual: Oggetti opzionali; Descrizione degli oggetti del Device Profile; Modo interpolatore; 1 more section.
-            pub fn ip_time_units(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                u8,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                IP_TIME_UNITS.at(self.client)
-            }
-            /// Exponent of the time unit of sub-index 1, to the base 10: −3 is 10⁻³ s (1 ms). The manual does not state the value of this exponent.
-            ///
-            /// Time Index: 0x60C2:02, INTEGER8, read-only.
-            /// Constant: [`TIME_INDEX`].
-            pub fn time_index(&mut self) -> super::ReadOnlyAccess<'_, C, i8> {
-                TIME_INDEX.at(self.client)
-            }
+        /// Interpolation period: time between two set-points of the interpolator.
+        ///
+        /// ip\_time\_units: Unit ms, range 0 to 255, 0x60C2:01, Modbus R47 (holding; wire address 0x802F; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x802F (PROFINET), UNSIGNED8, read-write.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`interpolation_time_period::IP_TIME_UNITS`].
+        ///
+        /// Note: According to the text, the period of the interpolator is at sub-index 2 of 0x60C2, which is read-only, but the examples write sub-index 1. Assumed: the interpolation period is at sub-index 1 of 0x60C2 (sub-index 2 is read-only, so a master could not set the interpolation period at sub-index 2). Manual: Oggetti opzionali; Descrizione degli oggetti del Device Profile; Modo interpolatore; 1 more section.
+        pub fn ip_time_units(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, OnCanOpenCoEModbusImageWindows> {
+            interpolation_time_period::IP_TIME_UNITS.at(self.client)
+        }
+        /// Exponent of the time unit of sub-index 1, to the base 10: −3 is 10⁻³ s (1 ms). The manual does not state the value of this exponent.
+        ///
+        /// Time Index: 0x60C2:02, INTEGER8, read-only.
+        /// Constant: [`interpolation_time_period::TIME_INDEX`].
+        pub fn time_index(&mut self) -> ReadOnlyAccess<'_, C, i8> {
+            interpolation_time_period::TIME_INDEX.at(self.client)
         }
     }
     /// Max Slippage: 0x60F8:00, INTEGER32, read-write, mappable into any PDO.
@@ -18107,21 +18104,21 @@ pub mod objects {
     /// Digital Outputs.
     ///
     /// ARRAY 0x60FE.
-    pub mod digital_outputs {
-        use ::lexibus as rt;
+    pub enum digital_outputs {}
+    impl digital_outputs {
         /// Number of entries of the digital outputs: 0x60FE:00, UNSIGNED8, read-only.
         /// Accessor: [`DigitalOutputsAccessors::number_of_entries_of_the_digital_outputs`].
         ///
         /// Highest sub-index.
         ///
         /// Description from CiA 402, 9.3.16. Manual: Oggetti opzionali.
-        pub const NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS: ReadOnly<u8> = ReadOnlyU8::shared_object(
             0x60FE,
             0x00,
             "Number of entries of the digital outputs",
         );
         /// digital\_outputs: Range 0 to 4294967295, 0x60FE:01, Modbus R50 (holding; wire address 0x8032; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8032 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
-        /// Accessor: [`DigitalOutputsAccessors::digital_outputs`]. Value type: [`DigitalOutputs`](super::super::types::DigitalOutputs).
+        /// Accessor: [`DigitalOutputsAccessors::digital_outputs`]. Value type: [`DigitalOutputs`](super::types::DigitalOutputs).
         ///
         /// Levels of the digital outputs of connector CN2.
         ///
@@ -18130,11 +18127,11 @@ pub mod objects {
         /// Manual: Registri; Oggetti opzionali, digital\_outputs: Physical Outputs.
         ///
         /// Note: R50 is called digital\_outputs in the register table, and digital\_output in the text on the outputs. Assumed: register R50 is called digital\_outputs (the register table lists all registers with their names). Manual: Registri; E’ anche possibile disporre di alcune uscite digitali; digital\_output e digital\_out\_mask.
-        pub const DIGITAL_OUTPUTS: super::ReadWrite<
-            super::super::types::DigitalOutputs,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            super::location_5(
+        pub const DIGITAL_OUTPUTS: ReadWrite<
+            super::types::DigitalOutputs,
+            OnCanOpenCoEModbusImageWindows,
+        > = ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
+            location_5(
                 rt::Object::new(0x60FE, 0x01),
                 rt::Object::new(0x60FE, 0x01),
                 rt::Register::high_first(32818, 2).words_per_address(2),
@@ -18147,18 +18144,18 @@ pub mod objects {
             rt::Flags::PDO,
         );
         /// digital\_out\_mask: Range 0 to 4294967295, 0x60FE:02, Modbus R49 (holding; wire address 0x8031; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8031 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
-        /// Accessor: [`DigitalOutputsAccessors::digital_out_mask`]. Value type: [`DigitalOutputs`](super::super::types::DigitalOutputs).
+        /// Accessor: [`DigitalOutputsAccessors::digital_out_mask`]. Value type: [`DigitalOutputs`](super::types::DigitalOutputs).
         ///
         /// Bit mask: 1 configures the pin of the bit as an output. The pin is not used if the bit is 0.
         ///
         /// Non-volatile: stored by the command save.
         ///
         /// Manual: Registri; Oggetti opzionali; Alcuni pin del connettore, digital\_out\_mask: Bitmask.
-        pub const DIGITAL_OUT_MASK: super::ReadWrite<
-            super::super::types::DigitalOutputs,
-            super::OnCanOpenCoEModbusImageWindows,
-        > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            super::location_5(
+        pub const DIGITAL_OUT_MASK: ReadWrite<
+            super::types::DigitalOutputs,
+            OnCanOpenCoEModbusImageWindows,
+        > = ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
+            location_5(
                 rt::Object::new(0x60FE, 0x02),
                 rt::Object::new(0x60FE, 0x02),
                 rt::Register::high_first(32817, 2).words_per_address(2),
@@ -18170,52 +18167,52 @@ pub mod objects {
             "",
             rt::Flags::PDO,
         );
-        /// Accessors for the entries of the object. Digital Outputs: 0x60FE.
-        pub struct DigitalOutputsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Digital Outputs: 0x60FE.
+    pub struct DigitalOutputsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DigitalOutputsAccessors<'_, C> {
+        /// Highest sub-index.
+        ///
+        /// Number of entries of the digital outputs: 0x60FE:00, UNSIGNED8, read-only.
+        /// Constant: [`digital_outputs::NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS`].
+        pub fn number_of_entries_of_the_digital_outputs(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8> {
+            digital_outputs::NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS.at(self.client)
         }
-        impl<C> DigitalOutputsAccessors<'_, C> {
-            /// Highest sub-index.
-            ///
-            /// Number of entries of the digital outputs: 0x60FE:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS`].
-            pub fn number_of_entries_of_the_digital_outputs(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8> {
-                NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS.at(self.client)
-            }
-            /// Levels of the digital outputs of connector CN2.
-            ///
-            /// digital\_outputs: Range 0 to 4294967295, 0x60FE:01, Modbus R50 (holding; wire address 0x8032; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8032 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`DIGITAL_OUTPUTS`]. Value type: [`DigitalOutputs`](super::super::types::DigitalOutputs).
-            ///
-            /// Note: R50 is called digital\_outputs in the register table, and digital\_output in the text on the outputs. Assumed: register R50 is called digital\_outputs (the register table lists all registers with their names). Manual: Registri; E’ anche possibile disporre di alcune uscite digitali; digital\_output e digital\_out\_mask.
-            pub fn digital_outputs(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::DigitalOutputs,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                DIGITAL_OUTPUTS.at(self.client)
-            }
-            /// Bit mask: 1 configures the pin of the bit as an output. The pin is not used if the bit is 0.
-            ///
-            /// digital\_out\_mask: Range 0 to 4294967295, 0x60FE:02, Modbus R49 (holding; wire address 0x8031; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8031 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
-            /// Non-volatile: stored by the command save.
-            /// Constant: [`DIGITAL_OUT_MASK`]. Value type: [`DigitalOutputs`](super::super::types::DigitalOutputs).
-            pub fn digital_out_mask(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::DigitalOutputs,
-                super::OnCanOpenCoEModbusImageWindows,
-            > {
-                DIGITAL_OUT_MASK.at(self.client)
-            }
+        /// Levels of the digital outputs of connector CN2.
+        ///
+        /// digital\_outputs: Range 0 to 4294967295, 0x60FE:01, Modbus R50 (holding; wire address 0x8032; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8032 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`digital_outputs::DIGITAL_OUTPUTS`]. Value type: [`DigitalOutputs`](super::types::DigitalOutputs).
+        ///
+        /// Note: R50 is called digital\_outputs in the register table, and digital\_output in the text on the outputs. Assumed: register R50 is called digital\_outputs (the register table lists all registers with their names). Manual: Registri; E’ anche possibile disporre di alcune uscite digitali; digital\_output e digital\_out\_mask.
+        pub fn digital_outputs(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::DigitalOutputs,
+            OnCanOpenCoEModbusImageWindows,
+        > {
+            digital_outputs::DIGITAL_OUTPUTS.at(self.client)
+        }
+        /// Bit mask: 1 configures the pin of the bit as an output. The pin is not used if the bit is 0.
+        ///
+        /// digital\_out\_mask: Range 0 to 4294967295, 0x60FE:02, Modbus R49 (holding; wire address 0x8031; FC 3/6/16; 32 bits per address; high word first), indirect access with number 0x8031 (PROFINET), UNSIGNED32, read-write, mappable into any PDO.
+        /// Non-volatile: stored by the command save.
+        /// Constant: [`digital_outputs::DIGITAL_OUT_MASK`]. Value type: [`DigitalOutputs`](super::types::DigitalOutputs).
+        pub fn digital_out_mask(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::DigitalOutputs,
+            OnCanOpenCoEModbusImageWindows,
+        > {
+            digital_outputs::DIGITAL_OUT_MASK.at(self.client)
         }
     }
     /// Supported Drive Modes: 0x6502:00, UNSIGNED32, read-only.

@@ -6493,8 +6493,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1003", "0x1003"))]
     pub fn pre_defined_error_field(
         &mut self,
-    ) -> objects::pre_defined_error_field::PreDefinedErrorFieldAccessors<'_, C> {
-        objects::pre_defined_error_field::PreDefinedErrorFieldAccessors {
+    ) -> objects::PreDefinedErrorFieldAccessors<'_, C> {
+        objects::PreDefinedErrorFieldAccessors {
             client: &mut self.client,
         }
     }
@@ -6623,8 +6623,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1016", "0x1016"))]
     pub fn consumer_heartbeat_time(
         &mut self,
-    ) -> objects::consumer_heartbeat_time::ConsumerHeartbeatTimeAccessors<'_, C> {
-        objects::consumer_heartbeat_time::ConsumerHeartbeatTimeAccessors {
+    ) -> objects::ConsumerHeartbeatTimeAccessors<'_, C> {
+        objects::ConsumerHeartbeatTimeAccessors {
             client: &mut self.client,
         }
     }
@@ -6641,20 +6641,16 @@ impl<C> VectorStep<C> {
     /// Identity Object: 0x1018.
     /// The constants for the object's entries are in [`objects::identity_object`].
     #[doc(alias("1018", "0x1018"))]
-    pub fn identity_object(
-        &mut self,
-    ) -> objects::identity_object::IdentityObjectAccessors<'_, C> {
-        objects::identity_object::IdentityObjectAccessors {
+    pub fn identity_object(&mut self) -> objects::IdentityObjectAccessors<'_, C> {
+        objects::IdentityObjectAccessors {
             client: &mut self.client,
         }
     }
     /// SDO1 Parameter: 0x1200.
     /// The constants for the object's entries are in [`objects::sdo1_parameter`].
     #[doc(alias("1200", "0x1200"))]
-    pub fn sdo1_parameter(
-        &mut self,
-    ) -> objects::sdo1_parameter::Sdo1ParameterAccessors<'_, C> {
-        objects::sdo1_parameter::Sdo1ParameterAccessors {
+    pub fn sdo1_parameter(&mut self) -> objects::Sdo1ParameterAccessors<'_, C> {
+        objects::Sdo1ParameterAccessors {
             client: &mut self.client,
         }
     }
@@ -6663,11 +6659,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1400", "0x1400"))]
     pub fn rx_pdo1_communication_parameters(
         &mut self,
-    ) -> objects::rx_pdo1_communication_parameters::RxPdo1CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::rx_pdo1_communication_parameters::RxPdo1CommunicationParametersAccessors {
+    ) -> objects::RxPdo1CommunicationParametersAccessors<'_, C> {
+        objects::RxPdo1CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6676,11 +6669,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1401", "0x1401"))]
     pub fn rx_pdo2_communication_parameters(
         &mut self,
-    ) -> objects::rx_pdo2_communication_parameters::RxPdo2CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::rx_pdo2_communication_parameters::RxPdo2CommunicationParametersAccessors {
+    ) -> objects::RxPdo2CommunicationParametersAccessors<'_, C> {
+        objects::RxPdo2CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6689,11 +6679,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1402", "0x1402"))]
     pub fn rx_pdo3_communication_parameters(
         &mut self,
-    ) -> objects::rx_pdo3_communication_parameters::RxPdo3CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::rx_pdo3_communication_parameters::RxPdo3CommunicationParametersAccessors {
+    ) -> objects::RxPdo3CommunicationParametersAccessors<'_, C> {
+        objects::RxPdo3CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6702,11 +6689,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1403", "0x1403"))]
     pub fn rx_pdo4_communication_parameters(
         &mut self,
-    ) -> objects::rx_pdo4_communication_parameters::RxPdo4CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::rx_pdo4_communication_parameters::RxPdo4CommunicationParametersAccessors {
+    ) -> objects::RxPdo4CommunicationParametersAccessors<'_, C> {
+        objects::RxPdo4CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6715,8 +6699,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1600", "0x1600"))]
     pub fn rx_pdo1_mapping_parameters(
         &mut self,
-    ) -> objects::rx_pdo1_mapping_parameters::RxPdo1MappingParametersAccessors<'_, C> {
-        objects::rx_pdo1_mapping_parameters::RxPdo1MappingParametersAccessors {
+    ) -> objects::RxPdo1MappingParametersAccessors<'_, C> {
+        objects::RxPdo1MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6725,8 +6709,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1601", "0x1601"))]
     pub fn rx_pdo2_mapping_parameters(
         &mut self,
-    ) -> objects::rx_pdo2_mapping_parameters::RxPdo2MappingParametersAccessors<'_, C> {
-        objects::rx_pdo2_mapping_parameters::RxPdo2MappingParametersAccessors {
+    ) -> objects::RxPdo2MappingParametersAccessors<'_, C> {
+        objects::RxPdo2MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6735,8 +6719,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1602", "0x1602"))]
     pub fn rx_pdo3_mapping_parameters(
         &mut self,
-    ) -> objects::rx_pdo3_mapping_parameters::RxPdo3MappingParametersAccessors<'_, C> {
-        objects::rx_pdo3_mapping_parameters::RxPdo3MappingParametersAccessors {
+    ) -> objects::RxPdo3MappingParametersAccessors<'_, C> {
+        objects::RxPdo3MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6745,8 +6729,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1603", "0x1603"))]
     pub fn rx_pdo4_mapping_parameters(
         &mut self,
-    ) -> objects::rx_pdo4_mapping_parameters::RxPdo4MappingParametersAccessors<'_, C> {
-        objects::rx_pdo4_mapping_parameters::RxPdo4MappingParametersAccessors {
+    ) -> objects::RxPdo4MappingParametersAccessors<'_, C> {
+        objects::RxPdo4MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6755,11 +6739,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1800", "0x1800"))]
     pub fn tx_pdo1_communication_parameters(
         &mut self,
-    ) -> objects::tx_pdo1_communication_parameters::TxPdo1CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::tx_pdo1_communication_parameters::TxPdo1CommunicationParametersAccessors {
+    ) -> objects::TxPdo1CommunicationParametersAccessors<'_, C> {
+        objects::TxPdo1CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6768,11 +6749,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1801", "0x1801"))]
     pub fn tx_pdo2_communication_parameters(
         &mut self,
-    ) -> objects::tx_pdo2_communication_parameters::TxPdo2CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::tx_pdo2_communication_parameters::TxPdo2CommunicationParametersAccessors {
+    ) -> objects::TxPdo2CommunicationParametersAccessors<'_, C> {
+        objects::TxPdo2CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6781,11 +6759,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1802", "0x1802"))]
     pub fn tx_pdo3_communication_parameters(
         &mut self,
-    ) -> objects::tx_pdo3_communication_parameters::TxPdo3CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::tx_pdo3_communication_parameters::TxPdo3CommunicationParametersAccessors {
+    ) -> objects::TxPdo3CommunicationParametersAccessors<'_, C> {
+        objects::TxPdo3CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6794,11 +6769,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1803", "0x1803"))]
     pub fn tx_pdo4_communication_parameters(
         &mut self,
-    ) -> objects::tx_pdo4_communication_parameters::TxPdo4CommunicationParametersAccessors<
-        '_,
-        C,
-    > {
-        objects::tx_pdo4_communication_parameters::TxPdo4CommunicationParametersAccessors {
+    ) -> objects::TxPdo4CommunicationParametersAccessors<'_, C> {
+        objects::TxPdo4CommunicationParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6807,8 +6779,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1A00", "0x1A00"))]
     pub fn tx_pdo1_mapping_parameters(
         &mut self,
-    ) -> objects::tx_pdo1_mapping_parameters::TxPdo1MappingParametersAccessors<'_, C> {
-        objects::tx_pdo1_mapping_parameters::TxPdo1MappingParametersAccessors {
+    ) -> objects::TxPdo1MappingParametersAccessors<'_, C> {
+        objects::TxPdo1MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6817,8 +6789,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1A01", "0x1A01"))]
     pub fn tx_pdo2_mapping_parameters(
         &mut self,
-    ) -> objects::tx_pdo2_mapping_parameters::TxPdo2MappingParametersAccessors<'_, C> {
-        objects::tx_pdo2_mapping_parameters::TxPdo2MappingParametersAccessors {
+    ) -> objects::TxPdo2MappingParametersAccessors<'_, C> {
+        objects::TxPdo2MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6827,8 +6799,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1A02", "0x1A02"))]
     pub fn tx_pdo3_mapping_parameters(
         &mut self,
-    ) -> objects::tx_pdo3_mapping_parameters::TxPdo3MappingParametersAccessors<'_, C> {
-        objects::tx_pdo3_mapping_parameters::TxPdo3MappingParametersAccessors {
+    ) -> objects::TxPdo3MappingParametersAccessors<'_, C> {
+        objects::TxPdo3MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6837,8 +6809,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("1A03", "0x1A03"))]
     pub fn tx_pdo4_mapping_parameters(
         &mut self,
-    ) -> objects::tx_pdo4_mapping_parameters::TxPdo4MappingParametersAccessors<'_, C> {
-        objects::tx_pdo4_mapping_parameters::TxPdo4MappingParametersAccessors {
+    ) -> objects::TxPdo4MappingParametersAccessors<'_, C> {
+        objects::TxPdo4MappingParametersAccessors {
             client: &mut self.client,
         }
     }
@@ -6848,10 +6820,8 @@ impl<C> VectorStep<C> {
     /// read\_write\_variable: 0x23E8.
     /// The constants for the object's entries are in [`objects::read_write_variable`].
     #[doc(alias("23E8", "0x23E8"))]
-    pub fn read_write_variable(
-        &mut self,
-    ) -> objects::read_write_variable::ReadWriteVariableAccessors<'_, C> {
-        objects::read_write_variable::ReadWriteVariableAccessors {
+    pub fn read_write_variable(&mut self) -> objects::ReadWriteVariableAccessors<'_, C> {
+        objects::ReadWriteVariableAccessors {
             client: &mut self.client,
         }
     }
@@ -7197,10 +7167,8 @@ impl<C> VectorStep<C> {
     /// Homing speeds: 0x6099.
     /// The constants for the object's entries are in [`objects::homing_speeds`].
     #[doc(alias("6099", "0x6099"))]
-    pub fn homing_speeds(
-        &mut self,
-    ) -> objects::homing_speeds::HomingSpeedsAccessors<'_, C> {
-        objects::homing_speeds::HomingSpeedsAccessors {
+    pub fn homing_speeds(&mut self) -> objects::HomingSpeedsAccessors<'_, C> {
+        objects::HomingSpeedsAccessors {
             client: &mut self.client,
         }
     }
@@ -7337,8 +7305,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("60C1", "0x60C1"))]
     pub fn interpolation_data_record(
         &mut self,
-    ) -> objects::interpolation_data_record::InterpolationDataRecordAccessors<'_, C> {
-        objects::interpolation_data_record::InterpolationDataRecordAccessors {
+    ) -> objects::InterpolationDataRecordAccessors<'_, C> {
+        objects::InterpolationDataRecordAccessors {
             client: &mut self.client,
         }
     }
@@ -7347,8 +7315,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("60C2", "0x60C2"))]
     pub fn interpolation_time_period(
         &mut self,
-    ) -> objects::interpolation_time_period::InterpolationTimePeriodAccessors<'_, C> {
-        objects::interpolation_time_period::InterpolationTimePeriodAccessors {
+    ) -> objects::InterpolationTimePeriodAccessors<'_, C> {
+        objects::InterpolationTimePeriodAccessors {
             client: &mut self.client,
         }
     }
@@ -7357,11 +7325,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("60C3", "0x60C3"))]
     pub fn interpolation_sync_definition(
         &mut self,
-    ) -> objects::interpolation_sync_definition::InterpolationSyncDefinitionAccessors<
-        '_,
-        C,
-    > {
-        objects::interpolation_sync_definition::InterpolationSyncDefinitionAccessors {
+    ) -> objects::InterpolationSyncDefinitionAccessors<'_, C> {
+        objects::InterpolationSyncDefinitionAccessors {
             client: &mut self.client,
         }
     }
@@ -7370,11 +7335,8 @@ impl<C> VectorStep<C> {
     #[doc(alias("60C4", "0x60C4"))]
     pub fn interpolation_data_configuration(
         &mut self,
-    ) -> objects::interpolation_data_configuration::InterpolationDataConfigurationAccessors<
-        '_,
-        C,
-    > {
-        objects::interpolation_data_configuration::InterpolationDataConfigurationAccessors {
+    ) -> objects::InterpolationDataConfigurationAccessors<'_, C> {
+        objects::InterpolationDataConfigurationAccessors {
             client: &mut self.client,
         }
     }
@@ -7398,10 +7360,8 @@ impl<C> VectorStep<C> {
     /// Digital outputs: 0x60FE.
     /// The constants for the object's entries are in [`objects::digital_outputs`].
     #[doc(alias("60FE", "0x60FE"))]
-    pub fn digital_outputs(
-        &mut self,
-    ) -> objects::digital_outputs::DigitalOutputsAccessors<'_, C> {
-        objects::digital_outputs::DigitalOutputsAccessors {
+    pub fn digital_outputs(&mut self) -> objects::DigitalOutputsAccessors<'_, C> {
+        objects::DigitalOutputsAccessors {
             client: &mut self.client,
         }
     }
@@ -36402,6 +36362,7 @@ pub mod procedures {
         rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0093),
     ];
 }
+#[allow(non_camel_case_types)]
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -47372,8 +47333,8 @@ pub mod objects {
     /// Pre-defined Error Field.
     ///
     /// ARRAY 0x1003.
-    pub mod pre_defined_error_field {
-        use ::lexibus as rt;
+    pub enum pre_defined_error_field {}
+    impl pre_defined_error_field {
         /// Number of errors: Range 0 to 2, default 0, 0x1003:00, UNSIGNED8, read-write.
         /// Accessor: [`PreDefinedErrorFieldAccessors::number_of_errors`].
         ///
@@ -47384,7 +47345,7 @@ pub mod objects {
         /// Manual: PRE-DEFINED ERROR FIELD: number\_of\_errors.
         ///
         /// Note: Object 0x1003:0 has the access rights Read/Write and the limits 0x00 to 0x02, but the manual describes only the effect of writing 0. Assumed: object 0x1003:0 is read-write, and 0 is the only valid value to write (the manual does not describe the effect of writing values other than 0). Manual: PRE-DEFINED ERROR FIELD.
-        pub const NUMBER_OF_ERRORS: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ERRORS: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1003, 0x00),
             "Number of errors",
             rt::Range::OneOf(&[(0, 0)]),
@@ -47393,7 +47354,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Standard error field 1: Range 0 to 4294967295, default 0, 0x1003:01, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_error_field_1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_error_field_1`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error history, entry 1. The low word contains the error code, as in 0x603F. The entry exists only after an error.
         ///
@@ -47402,17 +47363,17 @@ pub mod objects {
         /// Manual: PRE-DEFINED ERROR FIELD: standard\_error\_field.
         ///
         /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
-        pub const STANDARD_ERROR_FIELD_1: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
+        pub const STANDARD_ERROR_FIELD_1: ReadOnly<
+            super::types::ErrorFieldEntry,
             rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyNamedErrorFieldEntryOnCanOpenCoE::shared_object_with_default(
+        > = ReadOnlyNamedErrorFieldEntryOnCanOpenCoE::shared_object_with_default(
             0x1003,
             0x01,
             "Standard error field 1",
-            super::super::types::ErrorFieldEntry::from_raw(0),
+            super::types::ErrorFieldEntry::from_raw(0),
         );
         /// Standard error field 2: Range 0 to 4294967295, default 0, 0x1003:02, UNSIGNED32, read-only.
-        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_error_field_2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
+        /// Accessor: [`PreDefinedErrorFieldAccessors::standard_error_field_2`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
         ///
         /// Error history, entry 2. The entry exists only after an error.
         ///
@@ -47423,65 +47384,55 @@ pub mod objects {
         /// Note: The manual uses the heading 0x1003:02 twice, the second time for the description of the serial number. Assumed: the description in the section of 0x1003 belongs to 0x1003:2, and the description of the serial number belongs to 0x1018:4 (the second description with the heading 0x1003:02 is in the section of 0x1018). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
         ///
         /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
-        pub const STANDARD_ERROR_FIELD_2: super::ReadOnly<
-            super::super::types::ErrorFieldEntry,
+        pub const STANDARD_ERROR_FIELD_2: ReadOnly<
+            super::types::ErrorFieldEntry,
             rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyNamedErrorFieldEntryOnCanOpenCoE::shared_object_with_default(
+        > = ReadOnlyNamedErrorFieldEntryOnCanOpenCoE::shared_object_with_default(
             0x1003,
             0x02,
             "Standard error field 2",
-            super::super::types::ErrorFieldEntry::from_raw(0),
+            super::types::ErrorFieldEntry::from_raw(0),
         );
-        /// Accessors for the entries of the object. Pre-defined Error Field: 0x1003.
-        pub struct PreDefinedErrorFieldAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Pre-defined Error Field: 0x1003.
+    pub struct PreDefinedErrorFieldAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> PreDefinedErrorFieldAccessors<'_, C> {
+        /// Number of errors in the history. Writing 0 clears the history.
+        ///
+        /// Number of errors: Range 0 to 2, default 0, 0x1003:00, UNSIGNED8, read-write.
+        /// Constant: [`pre_defined_error_field::NUMBER_OF_ERRORS`].
+        ///
+        /// Note: Object 0x1003:0 has the access rights Read/Write and the limits 0x00 to 0x02, but the manual describes only the effect of writing 0. Assumed: object 0x1003:0 is read-write, and 0 is the only valid value to write (the manual does not describe the effect of writing values other than 0). Manual: PRE-DEFINED ERROR FIELD.
+        pub fn number_of_errors(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            pre_defined_error_field::NUMBER_OF_ERRORS.at(self.client)
         }
-        impl<C> PreDefinedErrorFieldAccessors<'_, C> {
-            /// Number of errors in the history. Writing 0 clears the history.
-            ///
-            /// Number of errors: Range 0 to 2, default 0, 0x1003:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ERRORS`].
-            ///
-            /// Note: Object 0x1003:0 has the access rights Read/Write and the limits 0x00 to 0x02, but the manual describes only the effect of writing 0. Assumed: object 0x1003:0 is read-write, and 0 is the only valid value to write (the manual does not describe the effect of writing values other than 0). Manual: PRE-DEFINED ERROR FIELD.
-            pub fn number_of_errors(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ERRORS.at(self.client)
-            }
-            /// Error history, entry 1. The low word contains the error code, as in 0x603F. The entry exists only after an error.
-            ///
-            /// Standard error field 1: Range 0 to 4294967295, default 0, 0x1003:01, UNSIGNED32, read-only.
-            /// Constant: [`STANDARD_ERROR_FIELD_1`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            ///
-            /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
-            pub fn standard_error_field_1(
-                &mut self,
-            ) -> super::ReadOnlyAccess<
-                '_,
-                C,
-                super::super::types::ErrorFieldEntry,
-                rt::OnCanOpenAndCoE,
-            > {
-                STANDARD_ERROR_FIELD_1.at(self.client)
-            }
-            /// Error history, entry 2. The entry exists only after an error.
-            ///
-            /// Standard error field 2: Range 0 to 4294967295, default 0, 0x1003:02, UNSIGNED32, read-only.
-            /// Constant: [`STANDARD_ERROR_FIELD_2`]. Value type: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
-            ///
-            /// Note: The manual uses the heading 0x1003:02 twice, the second time for the description of the serial number. Assumed: the description in the section of 0x1003 belongs to 0x1003:2, and the description of the serial number belongs to 0x1018:4 (the second description with the heading 0x1003:02 is in the section of 0x1018). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
-            ///
-            /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
-            pub fn standard_error_field_2(
-                &mut self,
-            ) -> super::ReadOnlyAccess<
-                '_,
-                C,
-                super::super::types::ErrorFieldEntry,
-                rt::OnCanOpenAndCoE,
-            > {
-                STANDARD_ERROR_FIELD_2.at(self.client)
-            }
+        /// Error history, entry 1. The low word contains the error code, as in 0x603F. The entry exists only after an error.
+        ///
+        /// Standard error field 1: Range 0 to 4294967295, default 0, 0x1003:01, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::STANDARD_ERROR_FIELD_1`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        ///
+        /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
+        pub fn standard_error_field_1(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry, rt::OnCanOpenAndCoE> {
+            pre_defined_error_field::STANDARD_ERROR_FIELD_1.at(self.client)
+        }
+        /// Error history, entry 2. The entry exists only after an error.
+        ///
+        /// Standard error field 2: Range 0 to 4294967295, default 0, 0x1003:02, UNSIGNED32, read-only.
+        /// Constant: [`pre_defined_error_field::STANDARD_ERROR_FIELD_2`]. Value type: [`ErrorFieldEntry`](super::types::ErrorFieldEntry).
+        ///
+        /// Note: The manual uses the heading 0x1003:02 twice, the second time for the description of the serial number. Assumed: the description in the section of 0x1003 belongs to 0x1003:2, and the description of the serial number belongs to 0x1018:4 (the second description with the heading 0x1003:02 is in the section of 0x1018). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
+        ///
+        /// Note: Sub-indices 1 and 2 of 0x1003 both have the symbol standard\_error\_field. Assumed: a number is appended to the names of sub-indices 1 and 2 of 0x1003 (the sub-entries of an object must have different names). Manual: PRE-DEFINED ERROR FIELD.
+        pub fn standard_error_field_2(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::ErrorFieldEntry, rt::OnCanOpenAndCoE> {
+            pre_defined_error_field::STANDARD_ERROR_FIELD_2.at(self.client)
         }
     }
     /// COB-ID SYNC Message: Range 0 to 4294967295, default 0x80, 0x1005:00, UNSIGNED32, read-write.
@@ -47655,8 +47606,8 @@ pub mod objects {
     /// Consumer Heartbeat Time.
     ///
     /// ARRAY 0x1016.
-    pub mod consumer_heartbeat_time {
-        use ::lexibus as rt;
+    pub enum consumer_heartbeat_time {}
+    impl consumer_heartbeat_time {
         /// Number of entries: Range 0 to 2, default 0, 0x1016:00, UNSIGNED8, read-only.
         /// Accessor: [`ConsumerHeartbeatTimeAccessors::number_of_entries`].
         ///
@@ -47665,7 +47616,7 @@ pub mod objects {
         /// Description derived from the name in the manual. Manual: CONSUMER HEARTBEAT TIME: number\_of\_entries.
         ///
         /// Note: The default of 0x1016:0 is 0x00 with the limits 0 to 2, although the manual describes two heartbeat entries and an array of 3 elements. Assumed: the default of 0x1016:0 is 0, as printed (the manual does not state whether 0x1016:0 counts only the heartbeat entries in use). Manual: CONSUMER HEARTBEAT TIME.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1016, 0x00),
             "Number of entries",
             rt::Range::To(2),
@@ -47674,91 +47625,91 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Consumer heartbeat time 1: Range 0 to 2147483647, default 0, 0x1016:01, UNSIGNED32, read-write.
-        /// Accessor: [`ConsumerHeartbeatTimeAccessors::consumer_heartbeat_time_1`]. Value type: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
+        /// Accessor: [`ConsumerHeartbeatTimeAccessors::consumer_heartbeat_time_1`]. Value type: [`ConsumerHeartbeat`](super::types::ConsumerHeartbeat).
         ///
         /// Node-ID of the first monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
         ///
         /// Manual: CONSUMER HEARTBEAT TIME: Consumer\_heartbeat\_time.
         ///
         /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
-        pub const CONSUMER_HEARTBEAT_TIME_1: super::ReadWrite<
-            super::super::types::ConsumerHeartbeat,
+        pub const CONSUMER_HEARTBEAT_TIME_1: ReadWrite<
+            super::types::ConsumerHeartbeat,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedConsumerHeartbeatOnCanOpenCoE::new(
+        > = ReadWriteNamedConsumerHeartbeatOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1016, 0x01),
             "Consumer heartbeat time 1",
-            rt::Range::To(super::super::types::ConsumerHeartbeat::from_raw(2147483647)),
-            rt::Initial::Value(super::super::types::ConsumerHeartbeat::from_raw(0)),
+            rt::Range::To(super::types::ConsumerHeartbeat::from_raw(2147483647)),
+            rt::Initial::Value(super::types::ConsumerHeartbeat::from_raw(0)),
             "",
             rt::Flags::NONE,
         );
         /// Consumer heartbeat time 2: Range 0 to 2147483647, default 0, 0x1016:02, UNSIGNED32, read-write.
-        /// Accessor: [`ConsumerHeartbeatTimeAccessors::consumer_heartbeat_time_2`]. Value type: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
+        /// Accessor: [`ConsumerHeartbeatTimeAccessors::consumer_heartbeat_time_2`]. Value type: [`ConsumerHeartbeat`](super::types::ConsumerHeartbeat).
         ///
         /// Node-ID of the second monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
         ///
         /// Manual: CONSUMER HEARTBEAT TIME: Consumer\_heartbeat\_time.
         ///
         /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
-        pub const CONSUMER_HEARTBEAT_TIME_2: super::ReadWrite<
-            super::super::types::ConsumerHeartbeat,
+        pub const CONSUMER_HEARTBEAT_TIME_2: ReadWrite<
+            super::types::ConsumerHeartbeat,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedConsumerHeartbeatOnCanOpenCoE::new(
+        > = ReadWriteNamedConsumerHeartbeatOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1016, 0x02),
             "Consumer heartbeat time 2",
-            rt::Range::To(super::super::types::ConsumerHeartbeat::from_raw(2147483647)),
-            rt::Initial::Value(super::super::types::ConsumerHeartbeat::from_raw(0)),
+            rt::Range::To(super::types::ConsumerHeartbeat::from_raw(2147483647)),
+            rt::Initial::Value(super::types::ConsumerHeartbeat::from_raw(0)),
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Consumer Heartbeat Time: 0x1016.
-        pub struct ConsumerHeartbeatTimeAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Consumer Heartbeat Time: 0x1016.
+    pub struct ConsumerHeartbeatTimeAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ConsumerHeartbeatTimeAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 0 to 2, default 0, 0x1016:00, UNSIGNED8, read-only.
+        /// Constant: [`consumer_heartbeat_time::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The default of 0x1016:0 is 0x00 with the limits 0 to 2, although the manual describes two heartbeat entries and an array of 3 elements. Assumed: the default of 0x1016:0 is 0, as printed (the manual does not state whether 0x1016:0 counts only the heartbeat entries in use). Manual: CONSUMER HEARTBEAT TIME.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            consumer_heartbeat_time::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> ConsumerHeartbeatTimeAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 0 to 2, default 0, 0x1016:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The default of 0x1016:0 is 0x00 with the limits 0 to 2, although the manual describes two heartbeat entries and an array of 3 elements. Assumed: the default of 0x1016:0 is 0, as printed (the manual does not state whether 0x1016:0 counts only the heartbeat entries in use). Manual: CONSUMER HEARTBEAT TIME.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Node-ID of the first monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
-            ///
-            /// Consumer heartbeat time 1: Range 0 to 2147483647, default 0, 0x1016:01, UNSIGNED32, read-write.
-            /// Constant: [`CONSUMER_HEARTBEAT_TIME_1`]. Value type: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
-            ///
-            /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
-            pub fn consumer_heartbeat_time_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ConsumerHeartbeat,
-                rt::OnCanOpenAndCoE,
-            > {
-                CONSUMER_HEARTBEAT_TIME_1.at(self.client)
-            }
-            /// Node-ID of the second monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
-            ///
-            /// Consumer heartbeat time 2: Range 0 to 2147483647, default 0, 0x1016:02, UNSIGNED32, read-write.
-            /// Constant: [`CONSUMER_HEARTBEAT_TIME_2`]. Value type: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
-            ///
-            /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
-            pub fn consumer_heartbeat_time_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ConsumerHeartbeat,
-                rt::OnCanOpenAndCoE,
-            > {
-                CONSUMER_HEARTBEAT_TIME_2.at(self.client)
-            }
+        /// Node-ID of the first monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
+        ///
+        /// Consumer heartbeat time 1: Range 0 to 2147483647, default 0, 0x1016:01, UNSIGNED32, read-write.
+        /// Constant: [`consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_1`]. Value type: [`ConsumerHeartbeat`](super::types::ConsumerHeartbeat).
+        ///
+        /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
+        pub fn consumer_heartbeat_time_1(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::ConsumerHeartbeat,
+            rt::OnCanOpenAndCoE,
+        > {
+            consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_1.at(self.client)
+        }
+        /// Node-ID of the second monitored node and its heartbeat timeout in ms. A timeout of 0 disables monitoring. The drive rejects a second timeout for the same node-ID (abort code 0x06040043).
+        ///
+        /// Consumer heartbeat time 2: Range 0 to 2147483647, default 0, 0x1016:02, UNSIGNED32, read-write.
+        /// Constant: [`consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_2`]. Value type: [`ConsumerHeartbeat`](super::types::ConsumerHeartbeat).
+        ///
+        /// Note: The maximum of the heartbeat entry is printed as 0x007FFFFFFF, which has ten digits for 32 bits and includes the reserved bits 30 to 24. Assumed: the maximum of the heartbeat entry is 0x7FFFFFFF (0x007FFFFFFF is equal to 0x7FFFFFFF. The reserved bits suggest a maximum of 0x00FFFFFF instead, and a node-ID of 7 bits suggests 0x007FFFFF). Manual: CONSUMER HEARTBEAT TIME.
+        pub fn consumer_heartbeat_time_2(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::ConsumerHeartbeat,
+            rt::OnCanOpenAndCoE,
+        > {
+            consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_2.at(self.client)
         }
     }
     /// Producer Heartbeat Time: Unit ms, range 0 to 65535, default 0, 0x1017:00, UNSIGNED16, read-write.
@@ -47778,15 +47729,15 @@ pub mod objects {
     /// Identity Object.
     ///
     /// ARRAY 0x1018.
-    pub mod identity_object {
-        use ::lexibus as rt;
+    pub enum identity_object {}
+    impl identity_object {
         /// Number of entries: Range 1 to 4, default 4, 0x1018:00, UNSIGNED8, read-only.
         /// Accessor: [`IdentityObjectAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: IDENTITY OBJECT: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1018, 0x00),
             "Number of entries",
             rt::Range::Between(1, 4),
@@ -47800,7 +47751,7 @@ pub mod objects {
         /// Vendor-ID of the manufacturer: 0xBC for AEC.
         ///
         /// Manual: IDENTITY OBJECT: vendor\_ID.
-        pub const VENDOR_ID: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::shared_object_with_default(
+        pub const VENDOR_ID: ReadOnly<u32, rt::OnCanOpenAndCoE> = ReadOnlyU32OnCanOpenCoE::shared_object_with_default(
             0x1018,
             0x01,
             "Vendor ID",
@@ -47814,21 +47765,21 @@ pub mod objects {
         /// Manual: IDENTITY OBJECT: product\_code.
         ///
         /// Note: The default product code is 0x0000138E or 0x00000BBE, which are 5006 and 3006 in decimal. The manual states no product code for the models 1104, 2204 and 5106. Assumed: the product code has no fixed default value (the product code depends on the model of the drive). Manual: IDENTITY OBJECT.
-        pub const PRODUCT_CODE: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::shared_object(
+        pub const PRODUCT_CODE: ReadOnly<u32, rt::OnCanOpenAndCoE> = ReadOnlyU32OnCanOpenCoE::shared_object(
             0x1018,
             0x02,
             "Product code",
         );
         /// Revision number: Range 0 to 4294967295, 0x1018:03, UNSIGNED32, read-only.
-        /// Accessor: [`IdentityObjectAccessors::revision_number`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
+        /// Accessor: [`IdentityObjectAccessors::revision_number`]. Value type: [`RevisionNumber`](super::types::RevisionNumber).
         ///
         /// Revision of the CANopen behavior (high word) and of the firmware (low word).
         ///
         /// Manual: IDENTITY OBJECT: revision\_number.
-        pub const REVISION_NUMBER: super::ReadOnly<
-            super::super::types::RevisionNumber,
+        pub const REVISION_NUMBER: ReadOnly<
+            super::types::RevisionNumber,
             rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyNamedRevisionNumberOnCanOpenCoE::shared_object(
+        > = ReadOnlyNamedRevisionNumberOnCanOpenCoE::shared_object(
             0x1018,
             0x03,
             "Revision number",
@@ -47841,84 +47792,77 @@ pub mod objects {
         /// Manual: IDENTITY OBJECT: serial\_number.
         ///
         /// Note: The description of the serial number is headed 0x1003:02, which is also the heading of a description in the section of 0x1003. Assumed: the description of the serial number belongs to 0x1018:4 (the description of the serial number follows the description of 0x1018:03. 0x1018:0 states 4 entries, and the serial number is the fourth entry in the list at the beginning of the section). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
-        pub const SERIAL_NUMBER: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::shared_object(
+        pub const SERIAL_NUMBER: ReadOnly<u32, rt::OnCanOpenAndCoE> = ReadOnlyU32OnCanOpenCoE::shared_object(
             0x1018,
             0x04,
             "Serial number",
         );
-        /// Accessors for the entries of the object. Identity Object: 0x1018.
-        pub struct IdentityObjectAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Identity Object: 0x1018.
+    pub struct IdentityObjectAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> IdentityObjectAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 1 to 4, default 4, 0x1018:00, UNSIGNED8, read-only.
+        /// Constant: [`identity_object::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            identity_object::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> IdentityObjectAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 1 to 4, default 4, 0x1018:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Vendor-ID of the manufacturer: 0xBC for AEC.
-            ///
-            /// Vendor ID: Range 0 to 4294967295, default 188, 0x1018:01, UNSIGNED32, read-only.
-            /// Constant: [`VENDOR_ID`].
-            pub fn vendor_id(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
-                VENDOR_ID.at(self.client)
-            }
-            /// Product code. The manual lists 5006 and 3006, which are model numbers.
-            ///
-            /// Product code: Range 0 to 4294967295, 0x1018:02, UNSIGNED32, read-only.
-            /// Constant: [`PRODUCT_CODE`].
-            ///
-            /// Note: The default product code is 0x0000138E or 0x00000BBE, which are 5006 and 3006 in decimal. The manual states no product code for the models 1104, 2204 and 5106. Assumed: the product code has no fixed default value (the product code depends on the model of the drive). Manual: IDENTITY OBJECT.
-            pub fn product_code(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
-                PRODUCT_CODE.at(self.client)
-            }
-            /// Revision of the CANopen behavior (high word) and of the firmware (low word).
-            ///
-            /// Revision number: Range 0 to 4294967295, 0x1018:03, UNSIGNED32, read-only.
-            /// Constant: [`REVISION_NUMBER`]. Value type: [`RevisionNumber`](super::super::types::RevisionNumber).
-            pub fn revision_number(
-                &mut self,
-            ) -> super::ReadOnlyAccess<
-                '_,
-                C,
-                super::super::types::RevisionNumber,
-                rt::OnCanOpenAndCoE,
-            > {
-                REVISION_NUMBER.at(self.client)
-            }
-            /// Serial number of the drive.
-            ///
-            /// Serial number: Range 0 to 4294967295, 0x1018:04, UNSIGNED32, read-only.
-            /// Constant: [`SERIAL_NUMBER`].
-            ///
-            /// Note: The description of the serial number is headed 0x1003:02, which is also the heading of a description in the section of 0x1003. Assumed: the description of the serial number belongs to 0x1018:4 (the description of the serial number follows the description of 0x1018:03. 0x1018:0 states 4 entries, and the serial number is the fourth entry in the list at the beginning of the section). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
-            pub fn serial_number(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
-                SERIAL_NUMBER.at(self.client)
-            }
+        /// Vendor-ID of the manufacturer: 0xBC for AEC.
+        ///
+        /// Vendor ID: Range 0 to 4294967295, default 188, 0x1018:01, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::VENDOR_ID`].
+        pub fn vendor_id(&mut self) -> ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            identity_object::VENDOR_ID.at(self.client)
+        }
+        /// Product code. The manual lists 5006 and 3006, which are model numbers.
+        ///
+        /// Product code: Range 0 to 4294967295, 0x1018:02, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::PRODUCT_CODE`].
+        ///
+        /// Note: The default product code is 0x0000138E or 0x00000BBE, which are 5006 and 3006 in decimal. The manual states no product code for the models 1104, 2204 and 5106. Assumed: the product code has no fixed default value (the product code depends on the model of the drive). Manual: IDENTITY OBJECT.
+        pub fn product_code(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            identity_object::PRODUCT_CODE.at(self.client)
+        }
+        /// Revision of the CANopen behavior (high word) and of the firmware (low word).
+        ///
+        /// Revision number: Range 0 to 4294967295, 0x1018:03, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::REVISION_NUMBER`]. Value type: [`RevisionNumber`](super::types::RevisionNumber).
+        pub fn revision_number(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, super::types::RevisionNumber, rt::OnCanOpenAndCoE> {
+            identity_object::REVISION_NUMBER.at(self.client)
+        }
+        /// Serial number of the drive.
+        ///
+        /// Serial number: Range 0 to 4294967295, 0x1018:04, UNSIGNED32, read-only.
+        /// Constant: [`identity_object::SERIAL_NUMBER`].
+        ///
+        /// Note: The description of the serial number is headed 0x1003:02, which is also the heading of a description in the section of 0x1003. Assumed: the description of the serial number belongs to 0x1018:4 (the description of the serial number follows the description of 0x1018:03. 0x1018:0 states 4 entries, and the serial number is the fourth entry in the list at the beginning of the section). Manual: PRE-DEFINED ERROR FIELD; IDENTITY OBJECT.
+        pub fn serial_number(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            identity_object::SERIAL_NUMBER.at(self.client)
         }
     }
     /// SDO1 Parameter.
     ///
     /// RECORD 0x1200.
-    pub mod sdo1_parameter {
-        use ::lexibus as rt;
+    pub enum sdo1_parameter {}
+    impl sdo1_parameter {
         /// Number of entries: Range 2 to 2, default 2, 0x1200:00, UNSIGNED8, read-only.
         /// Accessor: [`Sdo1ParameterAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: SDO1 PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1200, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -47927,7 +47871,7 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID client to server: Range 0 to 4294967295, default \$NODEID+0x600, 0x1200:01, UNSIGNED32, read-write.
-        /// Accessor: [`Sdo1ParameterAccessors::cob_id_client_to_server`]. Value type: [`SdoIdentifier`](super::super::types::SdoIdentifier).
+        /// Accessor: [`Sdo1ParameterAccessors::cob_id_client_to_server`]. Value type: [`SdoIdentifier`](super::types::SdoIdentifier).
         ///
         /// COB-ID of SDO requests from the client to the drive.
         ///
@@ -47936,19 +47880,19 @@ pub mod objects {
         /// Manual: SDO1 PARAMETERS: COD-ID RxSDO (Cl -\> Sv).
         ///
         /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
-        pub const COB_ID_CLIENT_TO_SERVER: super::ReadWrite<
-            super::super::types::SdoIdentifier,
+        pub const COB_ID_CLIENT_TO_SERVER: ReadWrite<
+            super::types::SdoIdentifier,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedSdoIdentifierOnCanOpenCoE::new(
+        > = ReadWriteNamedSdoIdentifierOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1200, 0x01),
             "COB-ID client to server",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::SdoIdentifier::from_raw(0x600)),
+            rt::Initial::NodeId(super::types::SdoIdentifier::from_raw(0x600)),
             "",
             rt::Flags::NONE,
         );
         /// COB-ID server to client: Range 0 to 4294967295, default \$NODEID+0x580, 0x1200:02, UNSIGNED32, read-write.
-        /// Accessor: [`Sdo1ParameterAccessors::cob_id_server_to_client`]. Value type: [`SdoIdentifier`](super::super::types::SdoIdentifier).
+        /// Accessor: [`Sdo1ParameterAccessors::cob_id_server_to_client`]. Value type: [`SdoIdentifier`](super::types::SdoIdentifier).
         ///
         /// COB-ID of SDO replies from the drive to the client.
         ///
@@ -47957,77 +47901,67 @@ pub mod objects {
         /// Manual: SDO1 PARAMETERS: COD-ID TxSDO (Sv -\> Cl).
         ///
         /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
-        pub const COB_ID_SERVER_TO_CLIENT: super::ReadWrite<
-            super::super::types::SdoIdentifier,
+        pub const COB_ID_SERVER_TO_CLIENT: ReadWrite<
+            super::types::SdoIdentifier,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedSdoIdentifierOnCanOpenCoE::new(
+        > = ReadWriteNamedSdoIdentifierOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1200, 0x02),
             "COB-ID server to client",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::SdoIdentifier::from_raw(0x580)),
+            rt::Initial::NodeId(super::types::SdoIdentifier::from_raw(0x580)),
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. SDO1 Parameter: 0x1200.
-        pub struct Sdo1ParameterAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. SDO1 Parameter: 0x1200.
+    pub struct Sdo1ParameterAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Sdo1ParameterAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x1200:00, UNSIGNED8, read-only.
+        /// Constant: [`sdo1_parameter::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            sdo1_parameter::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> Sdo1ParameterAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x1200:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of SDO requests from the client to the drive.
-            ///
-            /// COB-ID client to server: Range 0 to 4294967295, default \$NODEID+0x600, 0x1200:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_CLIENT_TO_SERVER`]. Value type: [`SdoIdentifier`](super::super::types::SdoIdentifier).
-            ///
-            /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
-            pub fn cob_id_client_to_server(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::SdoIdentifier,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID_CLIENT_TO_SERVER.at(self.client)
-            }
-            /// COB-ID of SDO replies from the drive to the client.
-            ///
-            /// COB-ID server to client: Range 0 to 4294967295, default \$NODEID+0x580, 0x1200:02, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID_SERVER_TO_CLIENT`]. Value type: [`SdoIdentifier`](super::super::types::SdoIdentifier).
-            ///
-            /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
-            pub fn cob_id_server_to_client(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::SdoIdentifier,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID_SERVER_TO_CLIENT.at(self.client)
-            }
+        /// COB-ID of SDO requests from the client to the drive.
+        ///
+        /// COB-ID client to server: Range 0 to 4294967295, default \$NODEID+0x600, 0x1200:01, UNSIGNED32, read-write.
+        /// Constant: [`sdo1_parameter::COB_ID_CLIENT_TO_SERVER`]. Value type: [`SdoIdentifier`](super::types::SdoIdentifier).
+        ///
+        /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
+        pub fn cob_id_client_to_server(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::SdoIdentifier, rt::OnCanOpenAndCoE> {
+            sdo1_parameter::COB_ID_CLIENT_TO_SERVER.at(self.client)
+        }
+        /// COB-ID of SDO replies from the drive to the client.
+        ///
+        /// COB-ID server to client: Range 0 to 4294967295, default \$NODEID+0x580, 0x1200:02, UNSIGNED32, read-write.
+        /// Constant: [`sdo1_parameter::COB_ID_SERVER_TO_CLIENT`]. Value type: [`SdoIdentifier`](super::types::SdoIdentifier).
+        ///
+        /// Note: The symbols of 0x1200:01 and 0x1200:02 contain COD-ID instead of COB-ID. Assumed: the object name contains COB-ID, not COD-ID (COD is a misprint of COB, as in the symbols of 0x1005 and 0x1014). Manual: SDO1 PARAMETERS.
+        pub fn cob_id_server_to_client(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::SdoIdentifier, rt::OnCanOpenAndCoE> {
+            sdo1_parameter::COB_ID_SERVER_TO_CLIENT.at(self.client)
         }
     }
     /// RxPDO1 Communication Parameters.
     ///
     /// RECORD 0x1400.
-    pub mod rx_pdo1_communication_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo1_communication_parameters {}
+    impl rx_pdo1_communication_parameters {
         /// Number of entries: Range 2 to 2, default 2, 0x1400:00, UNSIGNED8, read-only.
         /// Accessor: [`RxPdo1CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: RxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1400, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -48036,24 +47970,21 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`RxPdo1CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the RPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: RxPDO COMMUNICATION PARAMETERS: RxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1400, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x200)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x200)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1400:02, UNSIGNED8, read-write.
-        /// Accessor: [`RxPdo1CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`RxPdo1CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// RPDO transmission type: event at which the drive applies a received RPDO.
         ///
@@ -48062,75 +47993,70 @@ pub mod objects {
         /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
         ///
         /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1400,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of the object. RxPDO1 Communication Parameters: 0x1400.
-        pub struct RxPdo1CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO1 Communication Parameters: 0x1400.
+    pub struct RxPdo1CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo1CommunicationParametersAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x1400:00, UNSIGNED8, read-only.
+        /// Constant: [`rx_pdo1_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo1_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo1CommunicationParametersAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x1400:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the RPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// RPDO transmission type: event at which the drive applies a received RPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1400:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            ///
-            /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
-            ///
-            /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x200, 0x1400:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            rx_pdo1_communication_parameters::COB_ID.at(self.client)
+        }
+        /// RPDO transmission type: event at which the drive applies a received RPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1400:02, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo1_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        ///
+        /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
+        ///
+        /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            rx_pdo1_communication_parameters::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RxPDO2 Communication Parameters.
     ///
     /// RECORD 0x1401.
-    pub mod rx_pdo2_communication_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo2_communication_parameters {}
+    impl rx_pdo2_communication_parameters {
         /// Number of entries: Range 2 to 2, default 2, 0x1401:00, UNSIGNED8, read-only.
         /// Accessor: [`RxPdo2CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: RxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1401, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -48139,24 +48065,21 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`RxPdo2CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the RPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: RxPDO COMMUNICATION PARAMETERS: RxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1401, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x300)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x300)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1401:02, UNSIGNED8, read-write.
-        /// Accessor: [`RxPdo2CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`RxPdo2CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// RPDO transmission type: event at which the drive applies a received RPDO.
         ///
@@ -48165,75 +48088,70 @@ pub mod objects {
         /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
         ///
         /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1401,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of the object. RxPDO2 Communication Parameters: 0x1401.
-        pub struct RxPdo2CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO2 Communication Parameters: 0x1401.
+    pub struct RxPdo2CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo2CommunicationParametersAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x1401:00, UNSIGNED8, read-only.
+        /// Constant: [`rx_pdo2_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo2_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo2CommunicationParametersAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x1401:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the RPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// RPDO transmission type: event at which the drive applies a received RPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1401:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            ///
-            /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
-            ///
-            /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x300, 0x1401:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            rx_pdo2_communication_parameters::COB_ID.at(self.client)
+        }
+        /// RPDO transmission type: event at which the drive applies a received RPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1401:02, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo2_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        ///
+        /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
+        ///
+        /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            rx_pdo2_communication_parameters::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RxPDO3 Communication Parameters.
     ///
     /// RECORD 0x1402.
-    pub mod rx_pdo3_communication_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo3_communication_parameters {}
+    impl rx_pdo3_communication_parameters {
         /// Number of entries: Range 2 to 2, default 2, 0x1402:00, UNSIGNED8, read-only.
         /// Accessor: [`RxPdo3CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: RxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1402, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -48242,24 +48160,21 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x400, 0x1402:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`RxPdo3CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the RPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: RxPDO COMMUNICATION PARAMETERS: RxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1402, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x400)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x400)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1402:02, UNSIGNED8, read-write.
-        /// Accessor: [`RxPdo3CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`RxPdo3CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// RPDO transmission type: event at which the drive applies a received RPDO.
         ///
@@ -48268,75 +48183,70 @@ pub mod objects {
         /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
         ///
         /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1402,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of the object. RxPDO3 Communication Parameters: 0x1402.
-        pub struct RxPdo3CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO3 Communication Parameters: 0x1402.
+    pub struct RxPdo3CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo3CommunicationParametersAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x1402:00, UNSIGNED8, read-only.
+        /// Constant: [`rx_pdo3_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo3_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo3CommunicationParametersAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x1402:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the RPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x400, 0x1402:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// RPDO transmission type: event at which the drive applies a received RPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1402:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            ///
-            /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
-            ///
-            /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x400, 0x1402:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            rx_pdo3_communication_parameters::COB_ID.at(self.client)
+        }
+        /// RPDO transmission type: event at which the drive applies a received RPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1402:02, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo3_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        ///
+        /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
+        ///
+        /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            rx_pdo3_communication_parameters::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RxPDO4 Communication Parameters.
     ///
     /// RECORD 0x1403.
-    pub mod rx_pdo4_communication_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo4_communication_parameters {}
+    impl rx_pdo4_communication_parameters {
         /// Number of entries: Range 2 to 2, default 2, 0x1403:00, UNSIGNED8, read-only.
         /// Accessor: [`RxPdo4CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: RxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1403, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -48345,24 +48255,21 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x500, 0x1403:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`RxPdo4CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the RPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: RxPDO COMMUNICATION PARAMETERS: RxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1403, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x500)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x500)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1403:02, UNSIGNED8, read-write.
-        /// Accessor: [`RxPdo4CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`RxPdo4CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// RPDO transmission type: event at which the drive applies a received RPDO.
         ///
@@ -48371,68 +48278,63 @@ pub mod objects {
         /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
         ///
         /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1403,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
-        /// Accessors for the entries of the object. RxPDO4 Communication Parameters: 0x1403.
-        pub struct RxPdo4CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO4 Communication Parameters: 0x1403.
+    pub struct RxPdo4CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo4CommunicationParametersAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x1403:00, UNSIGNED8, read-only.
+        /// Constant: [`rx_pdo4_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo4_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo4CommunicationParametersAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x1403:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the RPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x500, 0x1403:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// RPDO transmission type: event at which the drive applies a received RPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1403:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            ///
-            /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
-            ///
-            /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
+        /// COB-ID of the RPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x500, 0x1403:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            rx_pdo4_communication_parameters::COB_ID.at(self.client)
+        }
+        /// RPDO transmission type: event at which the drive applies a received RPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1403:02, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo4_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        ///
+        /// Note: The text on the transmission type of receive PDOs describes transmission and an event timer, in the same words as for transmit PDOs. Assumed: RPDOs and TPDOs share one enumeration of transmission types (the manual contains the same table of transmission types for both directions. The manual does not state how the types 252 and 253 and the event timer affect reception). Manual: RxPDO COMMUNICATION PARAMETERS; TxPDO COMMUNICATION PARAMETERS.
+        ///
+        /// Note: In the mapping procedure, transmission types 0-240 are synchronous, and 254 and 255 are asynchronous. The table of transmission types also lists 252 (synchronous) and 253 (asynchronous), both on a remote request. Assumed: the valid transmission types are the values that the table of transmission types does not mark as reserved (the table of transmission types is more detailed than the mapping procedure). Manual: COME MAPPARE UN PDO; RxPDO COMMUNICATION PARAMETERS.
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            rx_pdo4_communication_parameters::TRANSMISSION_TYPE.at(self.client)
         }
     }
     /// RxPDO1 Mapping Parameters.
     ///
     /// RECORD 0x1600.
-    pub mod rx_pdo1_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo1_mapping_parameters {}
+    impl rx_pdo1_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 2, 0x1600:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdo1MappingParametersAccessors::number_of_entries`].
         ///
@@ -48447,7 +48349,7 @@ pub mod objects {
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
         ///
         /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1600, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -48456,262 +48358,222 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
         ///
         /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1600,
             0x01,
             "Mapped object 1",
-            super::super::types::PdoMapping::from_raw(0x60400010),
+            super::types::PdoMapping::from_raw(0x60400010),
         );
         /// Mapped object 2: Range 0 to 4294967295, default 0x60600008, 0x1600:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1600,
             0x02,
             "Mapped object 2",
-            super::super::types::PdoMapping::from_raw(0x60600008),
+            super::types::PdoMapping::from_raw(0x60600008),
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1600:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1600:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1600:05, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1600:06, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1600:07, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1600:08, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo1MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1600,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. RxPDO1 Mapping Parameters: 0x1600.
-        pub struct RxPdo1MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO1 Mapping Parameters: 0x1600.
+    pub struct RxPdo1MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo1MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 2, 0x1600:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
+        ///
+        /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo1MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 2, 0x1600:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
-            ///
-            /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            ///
-            /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, default 0x60600008, 0x1600:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1600:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1600:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1600:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1600:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1600:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1600:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1600:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        ///
+        /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, default 0x60600008, 0x1600:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1600:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1600:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1600:05, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1600:06, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1600:07, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1600:08, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo1_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// RxPDO2 Mapping Parameters.
     ///
     /// RECORD 0x1601.
-    pub mod rx_pdo2_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo2_mapping_parameters {}
+    impl rx_pdo2_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 2, 0x1601:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdo2MappingParametersAccessors::number_of_entries`].
         ///
@@ -48726,7 +48588,7 @@ pub mod objects {
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
         ///
         /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1601, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -48735,262 +48597,222 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
         ///
         /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1601,
             0x01,
             "Mapped object 1",
-            super::super::types::PdoMapping::from_raw(0x60400010),
+            super::types::PdoMapping::from_raw(0x60400010),
         );
         /// Mapped object 2: Range 0 to 4294967295, default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1601,
             0x02,
             "Mapped object 2",
-            super::super::types::PdoMapping::from_raw(0x607A0020),
+            super::types::PdoMapping::from_raw(0x607A0020),
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1601:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1601:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1601:05, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1601:06, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1601:07, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1601:08, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo2MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1601,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. RxPDO2 Mapping Parameters: 0x1601.
-        pub struct RxPdo2MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO2 Mapping Parameters: 0x1601.
+    pub struct RxPdo2MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo2MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 2, 0x1601:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
+        ///
+        /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo2MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 2, 0x1601:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
-            ///
-            /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            ///
-            /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1601:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1601:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1601:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1601:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1601:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1601:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. The default is the Controlword.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, default 0x60400010, 0x1601:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        ///
+        /// Note: The example in the mapping procedure contains the entry 0x604000010, which has nine digits, but the table of default mappings contains 0x60400010. Assumed: the mapping entry of the Controlword is 0x60400010 (a mapping entry has 32 bits, which are eight hexadecimal digits). Manual: COME MAPPARE UN PDO; Mappature di default.
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. The default is the mode of operation in RPDO 1, and the target position in RPDO 2.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, default 0x607A0020, 0x1601:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1601:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1601:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1601:05, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1601:06, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1601:07, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1601:08, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo2_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo2_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// RxPDO3 Mapping Parameters.
     ///
     /// RECORD 0x1602.
-    pub mod rx_pdo3_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo3_mapping_parameters {}
+    impl rx_pdo3_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 0, 0x1602:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdo3MappingParametersAccessors::number_of_entries`].
         ///
@@ -49005,7 +48827,7 @@ pub mod objects {
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
         ///
         /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1602, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -49014,256 +48836,216 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, 0x1602:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x01,
             "Mapped object 1",
         );
         /// Mapped object 2: Range 0 to 4294967295, 0x1602:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x02,
             "Mapped object 2",
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1602:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1602:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1602:05, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1602:06, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1602:07, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1602:08, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo3MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1602,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. RxPDO3 Mapping Parameters: 0x1602.
-        pub struct RxPdo3MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO3 Mapping Parameters: 0x1602.
+    pub struct RxPdo3MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo3MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 0, 0x1602:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
+        ///
+        /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo3MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 0, 0x1602:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
-            ///
-            /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, 0x1602:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, 0x1602:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1602:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1602:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1602:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1602:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1602:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1602:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, 0x1602:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, 0x1602:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1602:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1602:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1602:05, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1602:06, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1602:07, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1602:08, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo3_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo3_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// RxPDO4 Mapping Parameters.
     ///
     /// RECORD 0x1603.
-    pub mod rx_pdo4_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum rx_pdo4_mapping_parameters {}
+    impl rx_pdo4_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 0, 0x1603:00, UNSIGNED8, read-write.
         /// Accessor: [`RxPdo4MappingParametersAccessors::number_of_entries`].
         ///
@@ -49278,7 +49060,7 @@ pub mod objects {
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
         ///
         /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1603, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -49287,263 +49069,223 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, 0x1603:01, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x01,
             "Mapped object 1",
         );
         /// Mapped object 2: Range 0 to 4294967295, 0x1603:02, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x02,
             "Mapped object 2",
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1603:03, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1603:04, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1603:05, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1603:06, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1603:07, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1603:08, UNSIGNED32, read-write.
-        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`RxPdo4MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: RxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1603,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. RxPDO4 Mapping Parameters: 0x1603.
-        pub struct RxPdo4MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. RxPDO4 Mapping Parameters: 0x1603.
+    pub struct RxPdo4MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> RxPdo4MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 0, 0x1603:00, UNSIGNED8, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
+        ///
+        /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> RxPdo4MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 0, 0x1603:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; RxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1600 and 0x1601, and none for 0x1602 and 0x1603. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1600 to 0x1603 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: RxPDO MAPPING PARAMETERS; Mappature di default.
-            ///
-            /// Note: The mapping procedure maps up to 4 objects, in sub-indices 1 to 4. The section and the description of the mapping object allow up to 8. Assumed: a PDO has up to 8 mapped objects (the description of the mapping object, its section and the mapping granularity of 8 bits all allow 8 mapped objects). Manual: COME MAPPARE UN PDO; RxPDO MAPPING PARAMETERS.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, 0x1603:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, 0x1603:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1603:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1603:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1603:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1603:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1603:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1603:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, 0x1603:01, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, 0x1603:02, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1603:03, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1603:04, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1603:05, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1603:06, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1603:07, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1603:08, UNSIGNED32, read-write.
+        /// Constant: [`rx_pdo4_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            rx_pdo4_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// TxPDO1 Communication Parameters.
     ///
     /// RECORD 0x1800.
-    pub mod tx_pdo1_communication_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo1_communication_parameters {}
+    impl tx_pdo1_communication_parameters {
         /// Number of entries: Range 2 to 5, default 5, 0x1800:00, UNSIGNED8, read-only.
         /// Accessor: [`TxPdo1CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Highest supported sub-index.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: TxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x00),
             "Number of entries",
             rt::Range::Between(2, 5),
@@ -49552,36 +49294,33 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`TxPdo1CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the TPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: TxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x180)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x180)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1800:02, UNSIGNED8, read-write.
-        /// Accessor: [`TxPdo1CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TxPdo1CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// TPDO transmission type: event at which the drive transmits the TPDO.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1800,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
         /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1800:03, UNSIGNED16, read-write.
         /// Accessor: [`TxPdo1CommunicationParametersAccessors::inhibit_time`].
@@ -49591,10 +49330,7 @@ pub mod objects {
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
         ///
         /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-        pub const INHIBIT_TIME: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME: ReadWrite<rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> = ReadWriteU16Times100Per1OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x03),
             "Inhibit time",
             rt::Range::Full,
@@ -49608,7 +49344,7 @@ pub mod objects {
         /// Reserved sub-index. Its description in the manual is blank.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Reserved.
-        pub const RESERVED: super::ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadOnlyOpaqueOnCanOpenCoE::shared_object(
+        pub const RESERVED: ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = ReadOnlyOpaqueOnCanOpenCoE::shared_object(
             0x1800,
             0x04,
             "Reserved",
@@ -49619,7 +49355,7 @@ pub mod objects {
         /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: event\_timer.
-        pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const EVENT_TIMER: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x05),
             "Event timer",
             rt::Range::Full,
@@ -49627,96 +49363,86 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. TxPDO1 Communication Parameters: 0x1800.
-        pub struct TxPdo1CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO1 Communication Parameters: 0x1800.
+    pub struct TxPdo1CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo1CommunicationParametersAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries: Range 2 to 5, default 5, 0x1800:00, UNSIGNED8, read-only.
+        /// Constant: [`tx_pdo1_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo1_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo1CommunicationParametersAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries: Range 2 to 5, default 5, 0x1800:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the TPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// TPDO transmission type: event at which the drive transmits the TPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1800:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
-            /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
-            ///
-            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1800:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME`].
-            ///
-            /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-            pub fn inhibit_time(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                INHIBIT_TIME.at(self.client)
-            }
-            /// Reserved sub-index. Its description in the manual is blank.
-            ///
-            /// Reserved: 0x1800:04, unknown type, read-only.
-            /// Constant: [`RESERVED`].
-            pub fn reserved(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
-                RESERVED.at(self.client)
-            }
-            /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
-            ///
-            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1800:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER`].
-            pub fn event_timer(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                EVENT_TIMER.at(self.client)
-            }
+        /// COB-ID of the TPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x180, 0x1800:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            tx_pdo1_communication_parameters::COB_ID.at(self.client)
+        }
+        /// TPDO transmission type: event at which the drive transmits the TPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1800:02, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo1_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            tx_pdo1_communication_parameters::TRANSMISSION_TYPE.at(self.client)
+        }
+        /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
+        ///
+        /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1800:03, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo1_communication_parameters::INHIBIT_TIME`].
+        ///
+        /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
+        pub fn inhibit_time(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
+            tx_pdo1_communication_parameters::INHIBIT_TIME.at(self.client)
+        }
+        /// Reserved sub-index. Its description in the manual is blank.
+        ///
+        /// Reserved: 0x1800:04, unknown type, read-only.
+        /// Constant: [`tx_pdo1_communication_parameters::RESERVED`].
+        pub fn reserved(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
+            tx_pdo1_communication_parameters::RESERVED.at(self.client)
+        }
+        /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
+        ///
+        /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1800:05, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo1_communication_parameters::EVENT_TIMER`].
+        pub fn event_timer(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            tx_pdo1_communication_parameters::EVENT_TIMER.at(self.client)
         }
     }
     /// TxPDO2 Communication Parameters.
     ///
     /// RECORD 0x1801.
-    pub mod tx_pdo2_communication_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo2_communication_parameters {}
+    impl tx_pdo2_communication_parameters {
         /// Number of entries: Range 2 to 5, default 5, 0x1801:00, UNSIGNED8, read-only.
         /// Accessor: [`TxPdo2CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Highest supported sub-index.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: TxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x00),
             "Number of entries",
             rt::Range::Between(2, 5),
@@ -49725,36 +49451,33 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`TxPdo2CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the TPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: TxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x280)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x280)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1801:02, UNSIGNED8, read-write.
-        /// Accessor: [`TxPdo2CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TxPdo2CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// TPDO transmission type: event at which the drive transmits the TPDO.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1801,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
         /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1801:03, UNSIGNED16, read-write.
         /// Accessor: [`TxPdo2CommunicationParametersAccessors::inhibit_time`].
@@ -49764,10 +49487,7 @@ pub mod objects {
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
         ///
         /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-        pub const INHIBIT_TIME: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME: ReadWrite<rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> = ReadWriteU16Times100Per1OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x03),
             "Inhibit time",
             rt::Range::Full,
@@ -49781,7 +49501,7 @@ pub mod objects {
         /// Reserved sub-index. Its description in the manual is blank.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Reserved.
-        pub const RESERVED: super::ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadOnlyOpaqueOnCanOpenCoE::shared_object(
+        pub const RESERVED: ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = ReadOnlyOpaqueOnCanOpenCoE::shared_object(
             0x1801,
             0x04,
             "Reserved",
@@ -49792,7 +49512,7 @@ pub mod objects {
         /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: event\_timer.
-        pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const EVENT_TIMER: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x05),
             "Event timer",
             rt::Range::Full,
@@ -49800,96 +49520,86 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. TxPDO2 Communication Parameters: 0x1801.
-        pub struct TxPdo2CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO2 Communication Parameters: 0x1801.
+    pub struct TxPdo2CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo2CommunicationParametersAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries: Range 2 to 5, default 5, 0x1801:00, UNSIGNED8, read-only.
+        /// Constant: [`tx_pdo2_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo2_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo2CommunicationParametersAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries: Range 2 to 5, default 5, 0x1801:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the TPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// TPDO transmission type: event at which the drive transmits the TPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1801:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
-            /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
-            ///
-            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1801:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME`].
-            ///
-            /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-            pub fn inhibit_time(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                INHIBIT_TIME.at(self.client)
-            }
-            /// Reserved sub-index. Its description in the manual is blank.
-            ///
-            /// Reserved: 0x1801:04, unknown type, read-only.
-            /// Constant: [`RESERVED`].
-            pub fn reserved(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
-                RESERVED.at(self.client)
-            }
-            /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
-            ///
-            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1801:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER`].
-            pub fn event_timer(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                EVENT_TIMER.at(self.client)
-            }
+        /// COB-ID of the TPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x280, 0x1801:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            tx_pdo2_communication_parameters::COB_ID.at(self.client)
+        }
+        /// TPDO transmission type: event at which the drive transmits the TPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1801:02, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo2_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            tx_pdo2_communication_parameters::TRANSMISSION_TYPE.at(self.client)
+        }
+        /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
+        ///
+        /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1801:03, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo2_communication_parameters::INHIBIT_TIME`].
+        ///
+        /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
+        pub fn inhibit_time(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
+            tx_pdo2_communication_parameters::INHIBIT_TIME.at(self.client)
+        }
+        /// Reserved sub-index. Its description in the manual is blank.
+        ///
+        /// Reserved: 0x1801:04, unknown type, read-only.
+        /// Constant: [`tx_pdo2_communication_parameters::RESERVED`].
+        pub fn reserved(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
+            tx_pdo2_communication_parameters::RESERVED.at(self.client)
+        }
+        /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
+        ///
+        /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1801:05, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo2_communication_parameters::EVENT_TIMER`].
+        pub fn event_timer(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            tx_pdo2_communication_parameters::EVENT_TIMER.at(self.client)
         }
     }
     /// TxPDO3 Communication Parameters.
     ///
     /// RECORD 0x1802.
-    pub mod tx_pdo3_communication_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo3_communication_parameters {}
+    impl tx_pdo3_communication_parameters {
         /// Number of entries: Range 2 to 5, default 5, 0x1802:00, UNSIGNED8, read-only.
         /// Accessor: [`TxPdo3CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Highest supported sub-index.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: TxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x00),
             "Number of entries",
             rt::Range::Between(2, 5),
@@ -49898,36 +49608,33 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x380, 0x1802:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`TxPdo3CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the TPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: TxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x380)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x380)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1802:02, UNSIGNED8, read-write.
-        /// Accessor: [`TxPdo3CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TxPdo3CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// TPDO transmission type: event at which the drive transmits the TPDO.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1802,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
         /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1802:03, UNSIGNED16, read-write.
         /// Accessor: [`TxPdo3CommunicationParametersAccessors::inhibit_time`].
@@ -49937,10 +49644,7 @@ pub mod objects {
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
         ///
         /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-        pub const INHIBIT_TIME: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME: ReadWrite<rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> = ReadWriteU16Times100Per1OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x03),
             "Inhibit time",
             rt::Range::Full,
@@ -49954,7 +49658,7 @@ pub mod objects {
         /// Reserved sub-index. Its description in the manual is blank.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Reserved.
-        pub const RESERVED: super::ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadOnlyOpaqueOnCanOpenCoE::shared_object(
+        pub const RESERVED: ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = ReadOnlyOpaqueOnCanOpenCoE::shared_object(
             0x1802,
             0x04,
             "Reserved",
@@ -49965,7 +49669,7 @@ pub mod objects {
         /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: event\_timer.
-        pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const EVENT_TIMER: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x05),
             "Event timer",
             rt::Range::Full,
@@ -49973,96 +49677,86 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. TxPDO3 Communication Parameters: 0x1802.
-        pub struct TxPdo3CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO3 Communication Parameters: 0x1802.
+    pub struct TxPdo3CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo3CommunicationParametersAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries: Range 2 to 5, default 5, 0x1802:00, UNSIGNED8, read-only.
+        /// Constant: [`tx_pdo3_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo3_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo3CommunicationParametersAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries: Range 2 to 5, default 5, 0x1802:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the TPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x380, 0x1802:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// TPDO transmission type: event at which the drive transmits the TPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1802:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
-            /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
-            ///
-            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1802:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME`].
-            ///
-            /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-            pub fn inhibit_time(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                INHIBIT_TIME.at(self.client)
-            }
-            /// Reserved sub-index. Its description in the manual is blank.
-            ///
-            /// Reserved: 0x1802:04, unknown type, read-only.
-            /// Constant: [`RESERVED`].
-            pub fn reserved(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
-                RESERVED.at(self.client)
-            }
-            /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
-            ///
-            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1802:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER`].
-            pub fn event_timer(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                EVENT_TIMER.at(self.client)
-            }
+        /// COB-ID of the TPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x380, 0x1802:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            tx_pdo3_communication_parameters::COB_ID.at(self.client)
+        }
+        /// TPDO transmission type: event at which the drive transmits the TPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1802:02, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo3_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            tx_pdo3_communication_parameters::TRANSMISSION_TYPE.at(self.client)
+        }
+        /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
+        ///
+        /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1802:03, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo3_communication_parameters::INHIBIT_TIME`].
+        ///
+        /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
+        pub fn inhibit_time(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
+            tx_pdo3_communication_parameters::INHIBIT_TIME.at(self.client)
+        }
+        /// Reserved sub-index. Its description in the manual is blank.
+        ///
+        /// Reserved: 0x1802:04, unknown type, read-only.
+        /// Constant: [`tx_pdo3_communication_parameters::RESERVED`].
+        pub fn reserved(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
+            tx_pdo3_communication_parameters::RESERVED.at(self.client)
+        }
+        /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
+        ///
+        /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1802:05, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo3_communication_parameters::EVENT_TIMER`].
+        pub fn event_timer(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            tx_pdo3_communication_parameters::EVENT_TIMER.at(self.client)
         }
     }
     /// TxPDO4 Communication Parameters.
     ///
     /// RECORD 0x1803.
-    pub mod tx_pdo4_communication_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo4_communication_parameters {}
+    impl tx_pdo4_communication_parameters {
         /// Number of entries: Range 2 to 5, default 5, 0x1803:00, UNSIGNED8, read-only.
         /// Accessor: [`TxPdo4CommunicationParametersAccessors::number_of_entries`].
         ///
         /// Highest supported sub-index.
         ///
         /// Description from CiA 301, 7.5.2.37. Manual: TxPDO COMMUNICATION PARAMETERS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x00),
             "Number of entries",
             rt::Range::Between(2, 5),
@@ -50071,36 +49765,33 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x480, 0x1803:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
+        /// Accessor: [`TxPdo4CommunicationParametersAccessors::cob_id`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
         ///
         /// COB-ID of the TPDO, with the valid bit and the RTR bit.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: TxPDO COB-ID.
-        pub const COB_ID: super::ReadWrite<
-            super::super::types::CobIdPdo,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
+        pub const COB_ID: ReadWrite<super::types::CobIdPdo, rt::OnCanOpenAndCoE> = ReadWriteNamedCobIdPdoOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(super::super::types::CobIdPdo::from_raw(0x480)),
+            rt::Initial::NodeId(super::types::CobIdPdo::from_raw(0x480)),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type: Range 0 to 255, default 254, 0x1803:02, UNSIGNED8, read-write.
-        /// Accessor: [`TxPdo4CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
+        /// Accessor: [`TxPdo4CommunicationParametersAccessors::transmission_type`]. Value type: [`TransmissionType`](super::types::TransmissionType).
         ///
         /// TPDO transmission type: event at which the drive transmits the TPDO.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<
-            super::super::types::TransmissionType,
+        pub const TRANSMISSION_TYPE: ReadWrite<
+            super::types::TransmissionType,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object_with_default(
             0x1803,
             0x02,
             "Transmission type",
-            super::super::types::TransmissionType::from_raw(254),
+            super::types::TransmissionType::from_raw(254),
         );
         /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1803:03, UNSIGNED16, read-write.
         /// Accessor: [`TxPdo4CommunicationParametersAccessors::inhibit_time`].
@@ -50110,10 +49801,7 @@ pub mod objects {
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Transmission\_type.
         ///
         /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-        pub const INHIBIT_TIME: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME: ReadWrite<rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> = ReadWriteU16Times100Per1OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x03),
             "Inhibit time",
             rt::Range::Full,
@@ -50127,7 +49815,7 @@ pub mod objects {
         /// Reserved sub-index. Its description in the manual is blank.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: Reserved.
-        pub const RESERVED: super::ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadOnlyOpaqueOnCanOpenCoE::shared_object(
+        pub const RESERVED: ReadOnly<rt::Opaque, rt::OnCanOpenAndCoE> = ReadOnlyOpaqueOnCanOpenCoE::shared_object(
             0x1803,
             0x04,
             "Reserved",
@@ -50138,7 +49826,7 @@ pub mod objects {
         /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
         ///
         /// Manual: TxPDO COMMUNICATION PARAMETERS: event\_timer.
-        pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const EVENT_TIMER: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x05),
             "Event timer",
             rt::Range::Full,
@@ -50146,89 +49834,79 @@ pub mod objects {
             "ms",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. TxPDO4 Communication Parameters: 0x1803.
-        pub struct TxPdo4CommunicationParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO4 Communication Parameters: 0x1803.
+    pub struct TxPdo4CommunicationParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo4CommunicationParametersAccessors<'_, C> {
+        /// Highest supported sub-index.
+        ///
+        /// Number of entries: Range 2 to 5, default 5, 0x1803:00, UNSIGNED8, read-only.
+        /// Constant: [`tx_pdo4_communication_parameters::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo4_communication_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo4CommunicationParametersAccessors<'_, C> {
-            /// Highest supported sub-index.
-            ///
-            /// Number of entries: Range 2 to 5, default 5, 0x1803:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// COB-ID of the TPDO, with the valid bit and the RTR bit.
-            ///
-            /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x480, 0x1803:01, UNSIGNED32, read-write.
-            /// Constant: [`COB_ID`]. Value type: [`CobIdPdo`](super::super::types::CobIdPdo).
-            pub fn cob_id(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::CobIdPdo,
-                rt::OnCanOpenAndCoE,
-            > {
-                COB_ID.at(self.client)
-            }
-            /// TPDO transmission type: event at which the drive transmits the TPDO.
-            ///
-            /// Transmission type: Range 0 to 255, default 254, 0x1803:02, UNSIGNED8, read-write.
-            /// Constant: [`TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::super::types::TransmissionType).
-            pub fn transmission_type(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
-                TRANSMISSION_TYPE.at(self.client)
-            }
-            /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
-            ///
-            /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1803:03, UNSIGNED16, read-write.
-            /// Constant: [`INHIBIT_TIME`].
-            ///
-            /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
-            pub fn inhibit_time(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                INHIBIT_TIME.at(self.client)
-            }
-            /// Reserved sub-index. Its description in the manual is blank.
-            ///
-            /// Reserved: 0x1803:04, unknown type, read-only.
-            /// Constant: [`RESERVED`].
-            pub fn reserved(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
-                RESERVED.at(self.client)
-            }
-            /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
-            ///
-            /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1803:05, UNSIGNED16, read-write.
-            /// Constant: [`EVENT_TIMER`].
-            pub fn event_timer(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                EVENT_TIMER.at(self.client)
-            }
+        /// COB-ID of the TPDO, with the valid bit and the RTR bit.
+        ///
+        /// COB-ID: Range 0 to 4294967295, default \$NODEID+0x480, 0x1803:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_communication_parameters::COB_ID`]. Value type: [`CobIdPdo`](super::types::CobIdPdo).
+        pub fn cob_id(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::CobIdPdo, rt::OnCanOpenAndCoE> {
+            tx_pdo4_communication_parameters::COB_ID.at(self.client)
+        }
+        /// TPDO transmission type: event at which the drive transmits the TPDO.
+        ///
+        /// Transmission type: Range 0 to 255, default 254, 0x1803:02, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo4_communication_parameters::TRANSMISSION_TYPE`]. Value type: [`TransmissionType`](super::types::TransmissionType).
+        pub fn transmission_type(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::TransmissionType,
+            rt::OnCanOpenAndCoE,
+        > {
+            tx_pdo4_communication_parameters::TRANSMISSION_TYPE.at(self.client)
+        }
+        /// TPDO inhibit time: minimum time between two transmissions, 1 LSB = 100 µs.
+        ///
+        /// Inhibit time: 1 LSB = 100 us, range 0 … 6553500 us (raw 0 … 65535), default 0 us (raw 0), 0x1803:03, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo4_communication_parameters::INHIBIT_TIME`].
+        ///
+        /// Note: The symbol of sub-index 3 is Transmission\_type, as for sub-index 2, but the text describes a time during which transmission is inhibited. Assumed: sub-index 3 of the TPDO communication parameters is the inhibit time (in CiA 301, sub-index 3 is the inhibit time, with the same data type and unit). Manual: TxPDO COMMUNICATION PARAMETERS.
+        pub fn inhibit_time(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
+            tx_pdo4_communication_parameters::INHIBIT_TIME.at(self.client)
+        }
+        /// Reserved sub-index. Its description in the manual is blank.
+        ///
+        /// Reserved: 0x1803:04, unknown type, read-only.
+        /// Constant: [`tx_pdo4_communication_parameters::RESERVED`].
+        pub fn reserved(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
+            tx_pdo4_communication_parameters::RESERVED.at(self.client)
+        }
+        /// TPDO event timer: the drive transmits the TPDO when the timer expires. An event restarts the timer. Only the transmission types 254 and 255 use the timer.
+        ///
+        /// Event timer: Unit ms, range 0 to 65535, default 0, 0x1803:05, UNSIGNED16, read-write.
+        /// Constant: [`tx_pdo4_communication_parameters::EVENT_TIMER`].
+        pub fn event_timer(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            tx_pdo4_communication_parameters::EVENT_TIMER.at(self.client)
         }
     }
     /// TxPDO1 Mapping Parameters.
     ///
     /// RECORD 0x1A00.
-    pub mod tx_pdo1_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo1_mapping_parameters {}
+    impl tx_pdo1_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 2, 0x1A00:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdo1MappingParametersAccessors::number_of_entries`].
         ///
@@ -50241,7 +49919,7 @@ pub mod objects {
         /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
         ///
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1A00, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -50250,256 +49928,216 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1A00,
             0x01,
             "Mapped object 1",
-            super::super::types::PdoMapping::from_raw(0x60410010),
+            super::types::PdoMapping::from_raw(0x60410010),
         );
         /// Mapped object 2: Range 0 to 4294967295, default 0x60610008, 0x1A00:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1A00,
             0x02,
             "Mapped object 2",
-            super::super::types::PdoMapping::from_raw(0x60610008),
+            super::types::PdoMapping::from_raw(0x60610008),
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1A00:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1A00:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1A00:05, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1A00:06, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1A00:07, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1A00:08, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo1MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A00,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. TxPDO1 Mapping Parameters: 0x1A00.
-        pub struct TxPdo1MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO1 Mapping Parameters: 0x1A00.
+    pub struct TxPdo1MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo1MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 2, 0x1A00:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo1MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 2, 0x1A00:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, default 0x60610008, 0x1A00:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1A00:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1A00:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1A00:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1A00:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1A00:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1A00:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A00:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, default 0x60610008, 0x1A00:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1A00:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1A00:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1A00:05, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1A00:06, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1A00:07, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1A00:08, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo1_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo1_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// TxPDO2 Mapping Parameters.
     ///
     /// RECORD 0x1A01.
-    pub mod tx_pdo2_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo2_mapping_parameters {}
+    impl tx_pdo2_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 2, 0x1A01:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdo2MappingParametersAccessors::number_of_entries`].
         ///
@@ -50512,7 +50150,7 @@ pub mod objects {
         /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
         ///
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1A01, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -50521,256 +50159,216 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1A01,
             0x01,
             "Mapped object 1",
-            super::super::types::PdoMapping::from_raw(0x60410010),
+            super::types::PdoMapping::from_raw(0x60410010),
         );
         /// Mapped object 2: Range 0 to 4294967295, default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object_with_default(
             0x1A01,
             0x02,
             "Mapped object 2",
-            super::super::types::PdoMapping::from_raw(0x60640020),
+            super::types::PdoMapping::from_raw(0x60640020),
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1A01:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1A01:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1A01:05, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1A01:06, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1A01:07, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1A01:08, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo2MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A01,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. TxPDO2 Mapping Parameters: 0x1A01.
-        pub struct TxPdo2MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO2 Mapping Parameters: 0x1A01.
+    pub struct TxPdo2MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo2MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 2, 0x1A01:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo2MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 2, 0x1A01:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1A01:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1A01:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1A01:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1A01:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1A01:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1A01:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. The default is the Statusword.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, default 0x60410010, 0x1A01:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. The default is the active mode of operation in TPDO 1, and the actual position in TPDO 2.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, default 0x60640020, 0x1A01:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1A01:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1A01:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1A01:05, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1A01:06, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1A01:07, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1A01:08, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo2_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo2_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// TxPDO3 Mapping Parameters.
     ///
     /// RECORD 0x1A02.
-    pub mod tx_pdo3_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo3_mapping_parameters {}
+    impl tx_pdo3_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 0, 0x1A02:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdo3MappingParametersAccessors::number_of_entries`].
         ///
@@ -50783,7 +50381,7 @@ pub mod objects {
         /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
         ///
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1A02, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -50792,254 +50390,214 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, 0x1A02:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x01,
             "Mapped object 1",
         );
         /// Mapped object 2: Range 0 to 4294967295, 0x1A02:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x02,
             "Mapped object 2",
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1A02:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1A02:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1A02:05, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1A02:06, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1A02:07, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1A02:08, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo3MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A02,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. TxPDO3 Mapping Parameters: 0x1A02.
-        pub struct TxPdo3MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO3 Mapping Parameters: 0x1A02.
+    pub struct TxPdo3MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo3MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 0, 0x1A02:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo3MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 0, 0x1A02:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, 0x1A02:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, 0x1A02:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1A02:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1A02:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1A02:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1A02:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1A02:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1A02:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, 0x1A02:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, 0x1A02:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1A02:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1A02:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1A02:05, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1A02:06, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1A02:07, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1A02:08, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo3_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo3_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// TxPDO4 Mapping Parameters.
     ///
     /// RECORD 0x1A03.
-    pub mod tx_pdo4_mapping_parameters {
-        use ::lexibus as rt;
+    pub enum tx_pdo4_mapping_parameters {}
+    impl tx_pdo4_mapping_parameters {
         /// Number of entries: Range 0 to 8, default 0, 0x1A03:00, UNSIGNED8, read-write.
         /// Accessor: [`TxPdo4MappingParametersAccessors::number_of_entries`].
         ///
@@ -51052,7 +50610,7 @@ pub mod objects {
         /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
         ///
         /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1A03, 0x00),
             "Number of entries",
             rt::Range::To(8),
@@ -51061,254 +50619,214 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Mapped object 1: Range 0 to 4294967295, 0x1A03:01, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_1: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x01,
             "Mapped object 1",
         );
         /// Mapped object 2: Range 0 to 4294967295, 0x1A03:02, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_2: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x02,
             "Mapped object 2",
         );
         /// Mapped object 3: Range 0 to 4294967295, 0x1A03:03, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_3: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_3: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x03,
             "Mapped object 3",
         );
         /// Mapped object 4: Range 0 to 4294967295, 0x1A03:04, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_4: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_4: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x04,
             "Mapped object 4",
         );
         /// Mapped object 5: Range 0 to 4294967295, 0x1A03:05, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_5: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_5: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x05,
             "Mapped object 5",
         );
         /// Mapped object 6: Range 0 to 4294967295, 0x1A03:06, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_6: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_6: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x06,
             "Mapped object 6",
         );
         /// Mapped object 7: Range 0 to 4294967295, 0x1A03:07, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_7: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_7: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x07,
             "Mapped object 7",
         );
         /// Mapped object 8: Range 0 to 4294967295, 0x1A03:08, UNSIGNED32, read-write.
-        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
+        /// Accessor: [`TxPdo4MappingParametersAccessors::mapped_object_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
         ///
         /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
         ///
         /// Manual: TxPDO MAPPING PARAMETERS; Mappature di default: PDO mapping.
-        pub const MAPPED_OBJECT_8: super::ReadWrite<
-            super::super::types::PdoMapping,
+        pub const MAPPED_OBJECT_8: ReadWrite<
+            super::types::PdoMapping,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
+        > = ReadWriteNamedPdoMappingOnCanOpenCoE::shared_object(
             0x1A03,
             0x08,
             "Mapped object 8",
         );
-        /// Accessors for the entries of the object. TxPDO4 Mapping Parameters: 0x1A03.
-        pub struct TxPdo4MappingParametersAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. TxPDO4 Mapping Parameters: 0x1A03.
+    pub struct TxPdo4MappingParametersAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> TxPdo4MappingParametersAccessors<'_, C> {
+        /// Number of mapped objects. Write 0 before you change the mapping.
+        ///
+        /// Number of entries: Range 0 to 8, default 0, 0x1A03:00, UNSIGNED8, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
+        ///
+        /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> TxPdo4MappingParametersAccessors<'_, C> {
-            /// Number of mapped objects. Write 0 before you change the mapping.
-            ///
-            /// Number of entries: Range 0 to 8, default 0, 0x1A03:00, UNSIGNED8, read-write.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The access rights of sub-index 0 of the mapping object are "Read". However, the mapping procedure writes 0 and the number of mapped objects to this sub-index. Assumed: sub-index 0 of the mapping object is read-write (the mapping could not be changed if sub-index 0 were read-only, and the access rights in the summary table are RW). Manual: COME MAPPARE UN PDO; TAVOLA RIASSUNTIVA; TxPDO MAPPING PARAMETERS.
-            ///
-            /// Note: The default of sub-index 0 is blank. The table of default mappings lists two mapped objects each for 0x1A00 and 0x1A01, and none for 0x1A02 and 0x1A03. Assumed: the default numbers of mapped objects are 2, 2, 0 and 0 for 0x1A00 to 0x1A03 (the table of default mappings lists two, two, zero and zero mapped objects). Manual: TxPDO MAPPING PARAMETERS; Mappature di default.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 1: Range 0 to 4294967295, 0x1A03:01, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_1(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_1.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 2: Range 0 to 4294967295, 0x1A03:02, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_2(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_2.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 3: Range 0 to 4294967295, 0x1A03:03, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_3(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_3.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 4: Range 0 to 4294967295, 0x1A03:04, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_4(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_4.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 5: Range 0 to 4294967295, 0x1A03:05, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_5(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_5.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 6: Range 0 to 4294967295, 0x1A03:06, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_6(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_6.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 7: Range 0 to 4294967295, 0x1A03:07, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_7(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_7.at(self.client)
-            }
-            /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
-            ///
-            /// Mapped object 8: Range 0 to 4294967295, 0x1A03:08, UNSIGNED32, read-write.
-            /// Constant: [`MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::super::types::PdoMapping).
-            pub fn mapped_object_8(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::PdoMapping,
-                rt::OnCanOpenAndCoE,
-            > {
-                MAPPED_OBJECT_8.at(self.client)
-            }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 1: Range 0 to 4294967295, 0x1A03:01, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_1`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_1(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_1.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 2: Range 0 to 4294967295, 0x1A03:02, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_2`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_2(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_2.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 3: Range 0 to 4294967295, 0x1A03:03, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_3`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_3(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_3.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 4: Range 0 to 4294967295, 0x1A03:04, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_4`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_4(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_4.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 5: Range 0 to 4294967295, 0x1A03:05, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_5`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_5(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_5.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 6: Range 0 to 4294967295, 0x1A03:06, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_6`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_6(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_6.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 7: Range 0 to 4294967295, 0x1A03:07, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_7`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_7(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_7.at(self.client)
+        }
+        /// Mapped object: index, sub-index and length in bits. No object is mapped by default.
+        ///
+        /// Mapped object 8: Range 0 to 4294967295, 0x1A03:08, UNSIGNED32, read-write.
+        /// Constant: [`tx_pdo4_mapping_parameters::MAPPED_OBJECT_8`]. Value type: [`PdoMapping`](super::types::PdoMapping).
+        pub fn mapped_object_8(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, super::types::PdoMapping, rt::OnCanOpenAndCoE> {
+            tx_pdo4_mapping_parameters::MAPPED_OBJECT_8.at(self.client)
         }
     }
     /// read\_write\_variable.
     ///
     /// RECORD 0x23E8.
-    pub mod read_write_variable {
-        use ::lexibus as rt;
+    pub enum read_write_variable {}
+    impl read_write_variable {
         /// number\_of\_entries: Default 2, 0x23E8:00, UNSIGNED8, read-only.
         /// Accessor: [`ReadWriteVariableAccessors::number_of_entries`].
         ///
@@ -51317,7 +50835,7 @@ pub mod objects {
         /// Manual: Sub-indice 0: numero di sub-indici presenti nell'oggetto: number\_of\_entries.
         ///
         /// Note: The default of 0x23E8:0 is 0x02, although the sub-indices 1 to 6 follow and the object description states 7 elements. Assumed: the default of 0x23E8:0 is 2, as printed (the drive may return 2 or another number, so clients must not rely on the value of 0x23E8:0). Manual: Index dell'oggetto; Sub-indice 0: numero di sub-indici presenti nell'oggetto.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x23E8,
             0x00,
             "number_of_entries",
@@ -51331,7 +50849,7 @@ pub mod objects {
         /// Selects the user variable that sub-index 2 of 0x23E8 accesses.
         ///
         /// Manual: SDO di lettura e scrittura: variable\_number.
-        pub const VARIABLE_NUMBER_SDO: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const VARIABLE_NUMBER_SDO: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x23E8, 0x01),
             "variable_number_sdo",
             rt::Range::Between(1, 128),
@@ -51345,7 +50863,7 @@ pub mod objects {
         /// Value of the user variable that sub-index 1 of 0x23E8 selects, for access by SDO.
         ///
         /// Manual: SDO di lettura e scrittura: variable\_value.
-        pub const VARIABLE_VALUE_SDO: super::ReadWrite<i32, rt::OnCanOpenAndCoE> = super::ReadWriteI32OnCanOpenCoE::shared_object_with_default(
+        pub const VARIABLE_VALUE_SDO: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::shared_object_with_default(
             0x23E8,
             0x02,
             "variable_value_sdo",
@@ -51359,10 +50877,7 @@ pub mod objects {
         /// Selects the user variable that sub-index 4 of 0x23E8 accesses.
         ///
         /// Manual: PDO di scrittura: variable\_number.
-        pub const VARIABLE_NUMBER_WRITE_PDO: super::ReadWrite<
-            u16,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const VARIABLE_NUMBER_WRITE_PDO: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x23E8, 0x03),
             "variable_number_write_pdo",
             rt::Range::Between(1, 128),
@@ -51378,7 +50893,7 @@ pub mod objects {
         /// Manual: PDO di scrittura: variable\_value.
         ///
         /// Note: According to the heading and the PDO mapping of sub-indices 3 and 4, a client writes the variable by PDO. According to the examples for several axes, a client reads or writes the variable. Assumed: a client uses sub-indices 3 and 4 to write a variable (the examples use the words "read or write" for all three pairs, so they do not show the direction). Manual: PDO di scrittura; Lettura o Scrittura variabile tramite SDO; Scrittura variabile tramite PDO; 1 more section.
-        pub const VARIABLE_VALUE_WRITE_PDO: super::ReadWrite<i32, rt::OnCanOpenAndCoE> = super::ReadWriteI32OnCanOpenCoE::flagged_shared_object_with_default(
+        pub const VARIABLE_VALUE_WRITE_PDO: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::flagged_shared_object_with_default(
             0x23E8,
             0x04,
             "variable_value_write_pdo",
@@ -51393,7 +50908,7 @@ pub mod objects {
         /// Selects the user variable that sub-index 6 of 0x23E8 accesses.
         ///
         /// Manual: PDO di lettura: variable\_number.
-        pub const VARIABLE_NUMBER_READ_PDO: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const VARIABLE_NUMBER_READ_PDO: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x23E8, 0x05),
             "variable_number_read_pdo",
             rt::Range::Between(1, 128),
@@ -51411,89 +50926,89 @@ pub mod objects {
         /// Note: The heading of sub-index 6 is "PDO di lettura" (read PDO), and its PDO mapping is "Read". According to the text below the heading, a client writes the value. Assumed: a client uses sub-indices 5 and 6 to read a variable (the heading and the PDO mapping of sub-index 6 both refer to reading). Manual: PDO di lettura.
         ///
         /// Note: The access rights of 0x23E8:6 are "Read/Write", but its PDO mapping is "Read". Assumed: 0x23E8:6 is read-write and can be mapped to TPDOs only, as printed (an object can have more access rights by SDO than by PDO). Manual: PDO di lettura.
-        pub const VARIABLE_VALUE_READ_PDO: super::ReadWrite<i32, rt::OnCanOpenAndCoE> = super::ReadWriteI32OnCanOpenCoE::flagged_shared_object_with_default(
+        pub const VARIABLE_VALUE_READ_PDO: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::flagged_shared_object_with_default(
             0x23E8,
             0x06,
             "variable_value_read_pdo",
             rt::Flags::TPDO,
             0,
         );
-        /// Accessors for the entries of the object. read\_write\_variable: 0x23E8.
-        pub struct ReadWriteVariableAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. read\_write\_variable: 0x23E8.
+    pub struct ReadWriteVariableAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> ReadWriteVariableAccessors<'_, C> {
+        /// Number of sub-indices of 0x23E8.
+        ///
+        /// number\_of\_entries: Default 2, 0x23E8:00, UNSIGNED8, read-only.
+        /// Constant: [`read_write_variable::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The default of 0x23E8:0 is 0x02, although the sub-indices 1 to 6 follow and the object description states 7 elements. Assumed: the default of 0x23E8:0 is 2, as printed (the drive may return 2 or another number, so clients must not rely on the value of 0x23E8:0). Manual: Index dell'oggetto; Sub-indice 0: numero di sub-indici presenti nell'oggetto.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            read_write_variable::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> ReadWriteVariableAccessors<'_, C> {
-            /// Number of sub-indices of 0x23E8.
-            ///
-            /// number\_of\_entries: Default 2, 0x23E8:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The default of 0x23E8:0 is 0x02, although the sub-indices 1 to 6 follow and the object description states 7 elements. Assumed: the default of 0x23E8:0 is 2, as printed (the drive may return 2 or another number, so clients must not rely on the value of 0x23E8:0). Manual: Index dell'oggetto; Sub-indice 0: numero di sub-indici presenti nell'oggetto.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Number of the user variable that sub-index 2 of 0x23E8 accesses (by SDO).
-            ///
-            /// variable\_number\_sdo: Range 1 to 128, default 1, 0x23E8:01, UNSIGNED16, read-write.
-            /// Constant: [`VARIABLE_NUMBER_SDO`].
-            pub fn variable_number_sdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                VARIABLE_NUMBER_SDO.at(self.client)
-            }
-            /// Value of the user variable that sub-index 1 of 0x23E8 selects, for access by SDO.
-            ///
-            /// variable\_value\_sdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:02, INTEGER32, read-write.
-            /// Constant: [`VARIABLE_VALUE_SDO`].
-            pub fn variable_value_sdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
-                VARIABLE_VALUE_SDO.at(self.client)
-            }
-            /// Number of the user variable that sub-index 4 of 0x23E8 writes (by RPDO).
-            ///
-            /// variable\_number\_write\_pdo: Range 1 to 128, default 1, 0x23E8:03, UNSIGNED16, read-write, mappable into RPDOs.
-            /// Constant: [`VARIABLE_NUMBER_WRITE_PDO`].
-            pub fn variable_number_write_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                VARIABLE_NUMBER_WRITE_PDO.at(self.client)
-            }
-            /// Value to write by RPDO to the user variable that sub-index 3 of 0x23E8 selects.
-            ///
-            /// variable\_value\_write\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:04, INTEGER32, read-write, mappable into RPDOs.
-            /// Constant: [`VARIABLE_VALUE_WRITE_PDO`].
-            ///
-            /// Note: According to the heading and the PDO mapping of sub-indices 3 and 4, a client writes the variable by PDO. According to the examples for several axes, a client reads or writes the variable. Assumed: a client uses sub-indices 3 and 4 to write a variable (the examples use the words "read or write" for all three pairs, so they do not show the direction). Manual: PDO di scrittura; Lettura o Scrittura variabile tramite SDO; Scrittura variabile tramite PDO; 1 more section.
-            pub fn variable_value_write_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
-                VARIABLE_VALUE_WRITE_PDO.at(self.client)
-            }
-            /// Number of the user variable that sub-index 6 of 0x23E8 reads (by TPDO).
-            ///
-            /// variable\_number\_read\_pdo: Range 1 to 128, default 1, 0x23E8:05, UNSIGNED16, read-write, mappable into RPDOs.
-            /// Constant: [`VARIABLE_NUMBER_READ_PDO`].
-            pub fn variable_number_read_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
-                VARIABLE_NUMBER_READ_PDO.at(self.client)
-            }
-            /// Value of the user variable that sub-index 5 of 0x23E8 selects, for reading by TPDO.
-            ///
-            /// variable\_value\_read\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:06, INTEGER32, read-write, mappable into TPDOs.
-            /// Constant: [`VARIABLE_VALUE_READ_PDO`].
-            ///
-            /// Note: The heading of sub-index 6 is "PDO di lettura" (read PDO), and its PDO mapping is "Read". According to the text below the heading, a client writes the value. Assumed: a client uses sub-indices 5 and 6 to read a variable (the heading and the PDO mapping of sub-index 6 both refer to reading). Manual: PDO di lettura.
-            ///
-            /// Note: The access rights of 0x23E8:6 are "Read/Write", but its PDO mapping is "Read". Assumed: 0x23E8:6 is read-write and can be mapped to TPDOs only, as printed (an object can have more access rights by SDO than by PDO). Manual: PDO di lettura.
-            pub fn variable_value_read_pdo(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
-                VARIABLE_VALUE_READ_PDO.at(self.client)
-            }
+        /// Number of the user variable that sub-index 2 of 0x23E8 accesses (by SDO).
+        ///
+        /// variable\_number\_sdo: Range 1 to 128, default 1, 0x23E8:01, UNSIGNED16, read-write.
+        /// Constant: [`read_write_variable::VARIABLE_NUMBER_SDO`].
+        pub fn variable_number_sdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_NUMBER_SDO.at(self.client)
+        }
+        /// Value of the user variable that sub-index 1 of 0x23E8 selects, for access by SDO.
+        ///
+        /// variable\_value\_sdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:02, INTEGER32, read-write.
+        /// Constant: [`read_write_variable::VARIABLE_VALUE_SDO`].
+        pub fn variable_value_sdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_VALUE_SDO.at(self.client)
+        }
+        /// Number of the user variable that sub-index 4 of 0x23E8 writes (by RPDO).
+        ///
+        /// variable\_number\_write\_pdo: Range 1 to 128, default 1, 0x23E8:03, UNSIGNED16, read-write, mappable into RPDOs.
+        /// Constant: [`read_write_variable::VARIABLE_NUMBER_WRITE_PDO`].
+        pub fn variable_number_write_pdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_NUMBER_WRITE_PDO.at(self.client)
+        }
+        /// Value to write by RPDO to the user variable that sub-index 3 of 0x23E8 selects.
+        ///
+        /// variable\_value\_write\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:04, INTEGER32, read-write, mappable into RPDOs.
+        /// Constant: [`read_write_variable::VARIABLE_VALUE_WRITE_PDO`].
+        ///
+        /// Note: According to the heading and the PDO mapping of sub-indices 3 and 4, a client writes the variable by PDO. According to the examples for several axes, a client reads or writes the variable. Assumed: a client uses sub-indices 3 and 4 to write a variable (the examples use the words "read or write" for all three pairs, so they do not show the direction). Manual: PDO di scrittura; Lettura o Scrittura variabile tramite SDO; Scrittura variabile tramite PDO; 1 more section.
+        pub fn variable_value_write_pdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_VALUE_WRITE_PDO.at(self.client)
+        }
+        /// Number of the user variable that sub-index 6 of 0x23E8 reads (by TPDO).
+        ///
+        /// variable\_number\_read\_pdo: Range 1 to 128, default 1, 0x23E8:05, UNSIGNED16, read-write, mappable into RPDOs.
+        /// Constant: [`read_write_variable::VARIABLE_NUMBER_READ_PDO`].
+        pub fn variable_number_read_pdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_NUMBER_READ_PDO.at(self.client)
+        }
+        /// Value of the user variable that sub-index 5 of 0x23E8 selects, for reading by TPDO.
+        ///
+        /// variable\_value\_read\_pdo: Range \-2147483648 to 2147483647, default 0, 0x23E8:06, INTEGER32, read-write, mappable into TPDOs.
+        /// Constant: [`read_write_variable::VARIABLE_VALUE_READ_PDO`].
+        ///
+        /// Note: The heading of sub-index 6 is "PDO di lettura" (read PDO), and its PDO mapping is "Read". According to the text below the heading, a client writes the value. Assumed: a client uses sub-indices 5 and 6 to read a variable (the heading and the PDO mapping of sub-index 6 both refer to reading). Manual: PDO di lettura.
+        ///
+        /// Note: The access rights of 0x23E8:6 are "Read/Write", but its PDO mapping is "Read". Assumed: 0x23E8:6 is read-write and can be mapped to TPDOs only, as printed (an object can have more access rights by SDO than by PDO). Manual: PDO di lettura.
+        pub fn variable_value_read_pdo(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+            read_write_variable::VARIABLE_VALUE_READ_PDO.at(self.client)
         }
     }
     /// Error code: Range 0 to 65535, default 0, 0x603F:00, UNSIGNED16, read-only.
@@ -51941,15 +51456,15 @@ pub mod objects {
     /// Homing speeds.
     ///
     /// ARRAY 0x6099.
-    pub mod homing_speeds {
-        use ::lexibus as rt;
+    pub enum homing_speeds {}
+    impl homing_speeds {
         /// Number of entries: Range 2 to 2, default 2, 0x6099:00, UNSIGNED8, read-only.
         /// Accessor: [`HomingSpeedsAccessors::number_of_entries`].
         ///
         /// Number of sub-entries.
         ///
         /// Description derived from the name in the manual. Manual: HOMING SPEEDS: number\_of\_entries.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x6099, 0x00),
             "Number of entries",
             rt::Range::Between(2, 2),
@@ -51965,10 +51480,10 @@ pub mod objects {
         /// The drive disables the homing ramps if this speed is lower than or equal to the search speed for the zero point.
         ///
         /// Manual: HOMING SPEEDS: Speed\_during\_search\_for\_switch.
-        pub const SPEED_DURING_SEARCH_FOR_SWITCH: super::ReadWrite<
+        pub const SPEED_DURING_SEARCH_FOR_SWITCH: ReadWrite<
             rt::Scaled<u32, 1, 100>,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU32Times1Per100OnCanOpenCoE::new(
+        > = ReadWriteU32Times1Per100OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x6099, 0x01),
             "Speed during search for switch",
             rt::Range::To(10000),
@@ -51984,10 +51499,10 @@ pub mod objects {
         /// The drive disables the homing ramps if this speed is higher than or equal to the search speed for the switch.
         ///
         /// Manual: HOMING SPEEDS: Speed\_during\_search\_for\_zero.
-        pub const SPEED_DURING_SEARCH_FOR_ZERO: super::ReadWrite<
+        pub const SPEED_DURING_SEARCH_FOR_ZERO: ReadWrite<
             rt::Scaled<u32, 1, 100>,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU32Times1Per100OnCanOpenCoE::new(
+        > = ReadWriteU32Times1Per100OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x6099, 0x02),
             "Speed during search for zero",
             rt::Range::To(10000),
@@ -51995,48 +51510,38 @@ pub mod objects {
             "rev/s",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of the object. Homing speeds: 0x6099.
-        pub struct HomingSpeedsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Homing speeds: 0x6099.
+    pub struct HomingSpeedsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> HomingSpeedsAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Range 2 to 2, default 2, 0x6099:00, UNSIGNED8, read-only.
+        /// Constant: [`homing_speeds::NUMBER_OF_ENTRIES`].
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            homing_speeds::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> HomingSpeedsAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Range 2 to 2, default 2, 0x6099:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Homing speed during the search for the switch.
-            ///
-            /// Speed during search for switch: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 1.00 rev/s (raw 100), 0x6099:01, UNSIGNED32, read-write, mappable into RPDOs.
-            /// Constant: [`SPEED_DURING_SEARCH_FOR_SWITCH`].
-            pub fn speed_during_search_for_switch(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u32, 1, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                SPEED_DURING_SEARCH_FOR_SWITCH.at(self.client)
-            }
-            /// Homing speed during the search for the zero point.
-            ///
-            /// Speed during search for zero: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 0.10 rev/s (raw 10), 0x6099:02, UNSIGNED32, read-write, mappable into RPDOs.
-            /// Constant: [`SPEED_DURING_SEARCH_FOR_ZERO`].
-            pub fn speed_during_search_for_zero(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u32, 1, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
-                SPEED_DURING_SEARCH_FOR_ZERO.at(self.client)
-            }
+        /// Homing speed during the search for the switch.
+        ///
+        /// Speed during search for switch: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 1.00 rev/s (raw 100), 0x6099:01, UNSIGNED32, read-write, mappable into RPDOs.
+        /// Constant: [`homing_speeds::SPEED_DURING_SEARCH_FOR_SWITCH`].
+        pub fn speed_during_search_for_switch(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 100>, rt::OnCanOpenAndCoE> {
+            homing_speeds::SPEED_DURING_SEARCH_FOR_SWITCH.at(self.client)
+        }
+        /// Homing speed during the search for the zero point.
+        ///
+        /// Speed during search for zero: 1 LSB = 0.01 rev/s, range 0.00 … 100.00 rev/s (raw 0 … 10000), default 0.10 rev/s (raw 10), 0x6099:02, UNSIGNED32, read-write, mappable into RPDOs.
+        /// Constant: [`homing_speeds::SPEED_DURING_SEARCH_FOR_ZERO`].
+        pub fn speed_during_search_for_zero(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 100>, rt::OnCanOpenAndCoE> {
+            homing_speeds::SPEED_DURING_SEARCH_FOR_ZERO.at(self.client)
         }
     }
     /// Homing acceleration: 1 LSB = 0.1 rev/s², range 0.1 … 50000.0 rev/s² (raw 1 … 500000), default 0.1 rev/s² (raw 1), 0x609A:00, UNSIGNED32, read-write, mappable into RPDOs.
@@ -52208,8 +51713,8 @@ pub mod objects {
     /// Interpolation Data Record.
     ///
     /// RECORD 0x60C1.
-    pub mod interpolation_data_record {
-        use ::lexibus as rt;
+    pub enum interpolation_data_record {}
+    impl interpolation_data_record {
         /// Number of entries: Default 2, 0x60C1:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationDataRecordAccessors::number_of_entries`].
         ///
@@ -52218,7 +51723,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.2. Manual: INTERPOLATION DATA RECORD.
         ///
         /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, as in 0x6099). Manual: HOMING SPEEDS; INTERPOLATION DATA RECORD.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x60C1,
             0x00,
             "Number of entries",
@@ -52232,10 +51737,7 @@ pub mod objects {
         /// Manual: INTERPOLATION DATA RECORD: 1 st \_ip\_function\_parameter.
         ///
         /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
-        pub const _1ST_IP_FUNCTION_PARAMETER: super::ReadWrite<
-            i32,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteI32OnCanOpenCoE::new(
+        pub const _1ST_IP_FUNCTION_PARAMETER: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C1, 0x01),
             "1st ip function parameter",
             rt::Range::Full,
@@ -52251,10 +51753,7 @@ pub mod objects {
         /// Manual: INTERPOLATION DATA RECORD: 2 nd \_ip\_function\_parameter.
         ///
         /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
-        pub const _2ND_IP_FUNCTION_PARAMETER: super::ReadWrite<
-            i32,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteI32OnCanOpenCoE::new(
+        pub const _2ND_IP_FUNCTION_PARAMETER: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C1, 0x02),
             "2nd ip function parameter",
             rt::Range::Full,
@@ -52262,51 +51761,51 @@ pub mod objects {
             "step",
             rt::Flags::RPDO,
         );
-        /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
-        pub struct InterpolationDataRecordAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Data Record: 0x60C1.
+    pub struct InterpolationDataRecordAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationDataRecordAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Default 2, 0x60C1:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_data_record::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, as in 0x6099). Manual: HOMING SPEEDS; INTERPOLATION DATA RECORD.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_record::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> InterpolationDataRecordAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Default 2, 0x60C1:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, as in 0x6099). Manual: HOMING SPEEDS; INTERPOLATION DATA RECORD.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// First target position of the interpolator.
-            ///
-            /// 1st ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
-            /// Constant: [`_1ST_IP_FUNCTION_PARAMETER`].
-            ///
-            /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
-            pub fn _1st_ip_function_parameter(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
-                _1ST_IP_FUNCTION_PARAMETER.at(self.client)
-            }
-            /// Second target position of the interpolator.
-            ///
-            /// 2nd ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:02, INTEGER32, read-write, mappable into RPDOs.
-            /// Constant: [`_2ND_IP_FUNCTION_PARAMETER`].
-            ///
-            /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
-            pub fn _2nd_ip_function_parameter(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
-                _2ND_IP_FUNCTION_PARAMETER.at(self.client)
-            }
+        /// First target position of the interpolator.
+        ///
+        /// 1st ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:01, INTEGER32, read-write, mappable into RPDOs.
+        /// Constant: [`interpolation_data_record::_1ST_IP_FUNCTION_PARAMETER`].
+        ///
+        /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
+        pub fn _1st_ip_function_parameter(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+            interpolation_data_record::_1ST_IP_FUNCTION_PARAMETER.at(self.client)
+        }
+        /// Second target position of the interpolator.
+        ///
+        /// 2nd ip function parameter: Unit step, range \-2147483648 to 2147483647, default 0, 0x60C1:02, INTEGER32, read-write, mappable into RPDOs.
+        /// Constant: [`interpolation_data_record::_2ND_IP_FUNCTION_PARAMETER`].
+        ///
+        /// Hazard: The manual states no unit for this target position. Assumed: the target position is in steps (the actual position (0x6064) and the home offset (0x607C) are in steps). Manual: POSITION ACTUAL VALUE; HOME OFFSET; INTERPOLATION DATA RECORD.
+        pub fn _2nd_ip_function_parameter(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+            interpolation_data_record::_2ND_IP_FUNCTION_PARAMETER.at(self.client)
         }
     }
     /// Interpolation Time Period.
     ///
     /// RECORD 0x60C2.
-    pub mod interpolation_time_period {
-        use ::lexibus as rt;
+    pub enum interpolation_time_period {}
+    impl interpolation_time_period {
         /// Number of entries: Default 2, 0x60C2:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationTimePeriodAccessors::number_of_entries`].
         ///
@@ -52315,7 +51814,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.3. Manual: INTERPOLATION TIME PERIOD.
         ///
         /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x60C2,
             0x00,
             "Number of entries",
@@ -52329,7 +51828,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.3. Manual: INTERPOLATION TIME PERIOD: ip\_time\_units.
         ///
         /// Hazard: The manual states neither the unit of 0x60C2:1 (time units) nor its relation to 0x60C2:2 (time index). Assumed: the interpolation period is in ms (in CiA 402, the period is time units × 10^(time index) seconds. The manual allows only the time index 0xFD, which is -3). Manual: INTERPOLATION TIME PERIOD.
-        pub const INTERPOLATION_TIME_UNITS: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const INTERPOLATION_TIME_UNITS: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C2, 0x01),
             "Interpolation time units",
             rt::Range::Between(1, 10),
@@ -52347,7 +51846,7 @@ pub mod objects {
         /// Note: The type of 0x60C2:2 is Unsigned8, with 0xFD as the only value. Assumed: the type of the time index is i8 (as an Integer8, 0xFD is the exponent -3 (ms), and the type in CiA 402 is Integer8). Manual: INTERPOLATION TIME PERIOD.
         ///
         /// Note: The summary table states WMAP for 0x60C2, but the description of sub-index 2 states "No" for the PDO mapping. Assumed: object 0x60C2:2 cannot be mapped to PDOs (this is the safe assumption: a client can always access 0x60C2:2 by SDO, but the drive may reject a PDO mapping). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
-        pub const INTERPOLATION_TIME_INDEX: super::ReadWrite<i8, rt::OnCanOpenAndCoE> = super::ReadWriteI8OnCanOpenCoE::new(
+        pub const INTERPOLATION_TIME_INDEX: ReadWrite<i8, rt::OnCanOpenAndCoE> = ReadWriteI8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C2, 0x02),
             "Interpolation time index",
             rt::Range::Between(-3, -3),
@@ -52355,53 +51854,53 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
-        pub struct InterpolationTimePeriodAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Time Period: 0x60C2.
+    pub struct InterpolationTimePeriodAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationTimePeriodAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Default 2, 0x60C2:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_time_period::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_time_period::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> InterpolationTimePeriodAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Default 2, 0x60C2:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Interpolation period in the time unit of sub-index 2 (ms).
-            ///
-            /// Interpolation time units: Unit ms, range 1 to 10, default 4, 0x60C2:01, UNSIGNED8, read-write, mappable into RPDOs.
-            /// Constant: [`INTERPOLATION_TIME_UNITS`].
-            ///
-            /// Hazard: The manual states neither the unit of 0x60C2:1 (time units) nor its relation to 0x60C2:2 (time index). Assumed: the interpolation period is in ms (in CiA 402, the period is time units × 10^(time index) seconds. The manual allows only the time index 0xFD, which is -3). Manual: INTERPOLATION TIME PERIOD.
-            pub fn interpolation_time_units(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                INTERPOLATION_TIME_UNITS.at(self.client)
-            }
-            /// Time index: the unit of the interpolation period is 10^(time index) seconds. The value −3 means milliseconds.
-            ///
-            /// Interpolation time index: Range \-3 to \-3, default -3, 0x60C2:02, INTEGER8, read-write.
-            /// Constant: [`INTERPOLATION_TIME_INDEX`].
-            ///
-            /// Note: The type of 0x60C2:2 is Unsigned8, with 0xFD as the only value. Assumed: the type of the time index is i8 (as an Integer8, 0xFD is the exponent -3 (ms), and the type in CiA 402 is Integer8). Manual: INTERPOLATION TIME PERIOD.
-            ///
-            /// Note: The summary table states WMAP for 0x60C2, but the description of sub-index 2 states "No" for the PDO mapping. Assumed: object 0x60C2:2 cannot be mapped to PDOs (this is the safe assumption: a client can always access 0x60C2:2 by SDO, but the drive may reject a PDO mapping). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
-            pub fn interpolation_time_index(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i8, rt::OnCanOpenAndCoE> {
-                INTERPOLATION_TIME_INDEX.at(self.client)
-            }
+        /// Interpolation period in the time unit of sub-index 2 (ms).
+        ///
+        /// Interpolation time units: Unit ms, range 1 to 10, default 4, 0x60C2:01, UNSIGNED8, read-write, mappable into RPDOs.
+        /// Constant: [`interpolation_time_period::INTERPOLATION_TIME_UNITS`].
+        ///
+        /// Hazard: The manual states neither the unit of 0x60C2:1 (time units) nor its relation to 0x60C2:2 (time index). Assumed: the interpolation period is in ms (in CiA 402, the period is time units × 10^(time index) seconds. The manual allows only the time index 0xFD, which is -3). Manual: INTERPOLATION TIME PERIOD.
+        pub fn interpolation_time_units(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_time_period::INTERPOLATION_TIME_UNITS.at(self.client)
+        }
+        /// Time index: the unit of the interpolation period is 10^(time index) seconds. The value −3 means milliseconds.
+        ///
+        /// Interpolation time index: Range \-3 to \-3, default -3, 0x60C2:02, INTEGER8, read-write.
+        /// Constant: [`interpolation_time_period::INTERPOLATION_TIME_INDEX`].
+        ///
+        /// Note: The type of 0x60C2:2 is Unsigned8, with 0xFD as the only value. Assumed: the type of the time index is i8 (as an Integer8, 0xFD is the exponent -3 (ms), and the type in CiA 402 is Integer8). Manual: INTERPOLATION TIME PERIOD.
+        ///
+        /// Note: The summary table states WMAP for 0x60C2, but the description of sub-index 2 states "No" for the PDO mapping. Assumed: object 0x60C2:2 cannot be mapped to PDOs (this is the safe assumption: a client can always access 0x60C2:2 by SDO, but the drive may reject a PDO mapping). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION TIME PERIOD.
+        pub fn interpolation_time_index(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, i8, rt::OnCanOpenAndCoE> {
+            interpolation_time_period::INTERPOLATION_TIME_INDEX.at(self.client)
         }
     }
     /// Interpolation Sync Definition.
     ///
     /// ARRAY 0x60C3.
-    pub mod interpolation_sync_definition {
-        use ::lexibus as rt;
+    pub enum interpolation_sync_definition {}
+    impl interpolation_sync_definition {
         /// Number of entries: Default 2, 0x60C3:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationSyncDefinitionAccessors::number_of_entries`].
         ///
@@ -52410,7 +51909,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.4. Manual: INTERPOLATION SYNC DEFINITION.
         ///
         /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of an array contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION SYNC DEFINITION.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x60C3,
             0x00,
             "Number of entries",
@@ -52424,7 +51923,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.4. Manual: INTERPOLATION SYNC DEFINITION: sincronize\_on\_group.
         ///
         /// Note: The symbol of 0x60C3:1 is sincronize\_on\_group. Assumed: the name of 0x60C3:1 is "Synchronize on group" (sincronize is a misspelling of synchronize). Manual: INTERPOLATION SYNC DEFINITION.
-        pub const SYNCHRONIZE_ON_GROUP: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const SYNCHRONIZE_ON_GROUP: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C3, 0x01),
             "Synchronize on group",
             rt::Range::To(0),
@@ -52438,7 +51937,7 @@ pub mod objects {
         /// Number of events between two synchronizations. The value must be 1.
         ///
         /// Description from CiA 402, 15.4.4. Manual: INTERPOLATION SYNC DEFINITION: ip\_sync\_every\_n\_event.
-        pub const IP_SYNC_EVERY_N_EVENT: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const IP_SYNC_EVERY_N_EVENT: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C3, 0x02),
             "Ip sync every n event",
             rt::Range::Between(1, 1),
@@ -52446,49 +51945,49 @@ pub mod objects {
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Interpolation Sync Definition: 0x60C3.
-        pub struct InterpolationSyncDefinitionAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Sync Definition: 0x60C3.
+    pub struct InterpolationSyncDefinitionAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationSyncDefinitionAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Default 2, 0x60C3:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_sync_definition::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of an array contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION SYNC DEFINITION.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_sync_definition::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> InterpolationSyncDefinitionAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Default 2, 0x60C3:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of an array contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION SYNC DEFINITION.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Synchronization group of the interpolator. The value must be 0.
-            ///
-            /// Synchronize on group: Range 0 to 0, default 0, 0x60C3:01, UNSIGNED8, read-write.
-            /// Constant: [`SYNCHRONIZE_ON_GROUP`].
-            ///
-            /// Note: The symbol of 0x60C3:1 is sincronize\_on\_group. Assumed: the name of 0x60C3:1 is "Synchronize on group" (sincronize is a misspelling of synchronize). Manual: INTERPOLATION SYNC DEFINITION.
-            pub fn synchronize_on_group(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                SYNCHRONIZE_ON_GROUP.at(self.client)
-            }
-            /// Number of events between two synchronizations. The value must be 1.
-            ///
-            /// Ip sync every n event: Range 1 to 1, default 1, 0x60C3:02, UNSIGNED8, read-write.
-            /// Constant: [`IP_SYNC_EVERY_N_EVENT`].
-            pub fn ip_sync_every_n_event(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                IP_SYNC_EVERY_N_EVENT.at(self.client)
-            }
+        /// Synchronization group of the interpolator. The value must be 0.
+        ///
+        /// Synchronize on group: Range 0 to 0, default 0, 0x60C3:01, UNSIGNED8, read-write.
+        /// Constant: [`interpolation_sync_definition::SYNCHRONIZE_ON_GROUP`].
+        ///
+        /// Note: The symbol of 0x60C3:1 is sincronize\_on\_group. Assumed: the name of 0x60C3:1 is "Synchronize on group" (sincronize is a misspelling of synchronize). Manual: INTERPOLATION SYNC DEFINITION.
+        pub fn synchronize_on_group(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_sync_definition::SYNCHRONIZE_ON_GROUP.at(self.client)
+        }
+        /// Number of events between two synchronizations. The value must be 1.
+        ///
+        /// Ip sync every n event: Range 1 to 1, default 1, 0x60C3:02, UNSIGNED8, read-write.
+        /// Constant: [`interpolation_sync_definition::IP_SYNC_EVERY_N_EVENT`].
+        pub fn ip_sync_every_n_event(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_sync_definition::IP_SYNC_EVERY_N_EVENT.at(self.client)
         }
     }
     /// Interpolation Data Configuration.
     ///
     /// RECORD 0x60C4.
-    pub mod interpolation_data_configuration {
-        use ::lexibus as rt;
+    pub enum interpolation_data_configuration {}
+    impl interpolation_data_configuration {
         /// Number of entries: Default 6, 0x60C4:00, UNSIGNED8, read-only.
         /// Accessor: [`InterpolationDataConfigurationAccessors::number_of_entries`].
         ///
@@ -52497,7 +51996,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION.
         ///
         /// Note: The manual describes only the sub-indices 1 to 6 of 0x60C4, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 6 (sub-index 0 of a record contains the number of entries, and the summary table states 7 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION DATA CONFIGURATION.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x60C4,
             0x00,
             "Number of entries",
@@ -52509,7 +52008,7 @@ pub mod objects {
         /// Maximum number of records in the interpolation buffer.
         ///
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION: max\_buffer\_size.
-        pub const MAXIMUM_BUFFER_SIZE: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const MAXIMUM_BUFFER_SIZE: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x01),
             "Maximum buffer size",
             rt::Range::Between(2, 2),
@@ -52523,7 +52022,7 @@ pub mod objects {
         /// Number of records in use in the interpolation buffer.
         ///
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION: actual\_size.
-        pub const ACTUAL_SIZE: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const ACTUAL_SIZE: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x02),
             "Actual size",
             rt::Range::To(2),
@@ -52537,7 +52036,7 @@ pub mod objects {
         /// Organization of the interpolation buffer. The value must be 0.
         ///
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION: buffer\_organisation.
-        pub const BUFFER_ORGANISATION: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const BUFFER_ORGANISATION: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x03),
             "Buffer organisation",
             rt::Range::To(0),
@@ -52551,7 +52050,7 @@ pub mod objects {
         /// Number of the accessed record in the interpolation buffer.
         ///
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION: buffer\_position.
-        pub const BUFFER_POSITION: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const BUFFER_POSITION: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x04),
             "Buffer position",
             rt::Range::To(1),
@@ -52567,7 +52066,7 @@ pub mod objects {
         /// Description from CiA 402, 15.4.5. Manual: INTERPOLATION DATA CONFIGURATION: size\_of\_data\_record.
         ///
         /// Note: The only valid record size is 1, but a record of the interpolation buffer contains a position of 4 bytes. Assumed: the record size is 1, without a unit (the unit of the record size cannot be bytes, and the manual states no unit). Manual: INTERPOLATION DATA RECORD; INTERPOLATION DATA CONFIGURATION.
-        pub const SIZE_OF_DATA_RECORD: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
+        pub const SIZE_OF_DATA_RECORD: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x05),
             "Size of data record",
             rt::Range::Between(1, 1),
@@ -52576,103 +52075,98 @@ pub mod objects {
             rt::Flags::NONE,
         );
         /// Buffer clear: Range 0 to 1, default 0, 0x60C4:06, UNSIGNED8, write-only.
-        /// Accessor: [`InterpolationDataConfigurationAccessors::buffer_clear`]. Value type: [`BufferClear`](super::super::types::BufferClear).
+        /// Accessor: [`InterpolationDataConfigurationAccessors::buffer_clear`]. Value type: [`BufferClear`](super::types::BufferClear).
         ///
         /// Clears the interpolation buffer or enables access to it.
         ///
         /// Manual: INTERPOLATION DATA CONFIGURATION: buffer\_clear.
         ///
         /// Note: The table of values of 0x60C4:6 is headed "Modo operativo" (mode of operation). Assumed: the table lists the values of 0x60C4:6 (the rows of the table describe actions on the interpolation buffer, not modes of operation). Manual: INTERPOLATION DATA CONFIGURATION.
-        pub const BUFFER_CLEAR: super::WriteOnly<
-            super::super::types::BufferClear,
+        pub const BUFFER_CLEAR: WriteOnly<
+            super::types::BufferClear,
             rt::OnCanOpenAndCoE,
-        > = super::WriteOnlyNamedBufferClearOnCanOpenCoE::new(
+        > = WriteOnlyNamedBufferClearOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60C4, 0x06),
             "Buffer clear",
-            rt::Range::To(super::super::types::BufferClear::from_raw(1)),
-            rt::Initial::Value(super::super::types::BufferClear::from_raw(0)),
+            rt::Range::To(super::types::BufferClear::from_raw(1)),
+            rt::Initial::Value(super::types::BufferClear::from_raw(0)),
             "",
             rt::Flags::NONE,
         );
-        /// Accessors for the entries of the object. Interpolation Data Configuration: 0x60C4.
-        pub struct InterpolationDataConfigurationAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Interpolation Data Configuration: 0x60C4.
+    pub struct InterpolationDataConfigurationAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> InterpolationDataConfigurationAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Default 6, 0x60C4:00, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_data_configuration::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The manual describes only the sub-indices 1 to 6 of 0x60C4, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 6 (sub-index 0 of a record contains the number of entries, and the summary table states 7 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION DATA CONFIGURATION.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> InterpolationDataConfigurationAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Default 6, 0x60C4:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The manual describes only the sub-indices 1 to 6 of 0x60C4, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 6 (sub-index 0 of a record contains the number of entries, and the summary table states 7 sub-indices). Manual: TAVOLA RIASSUNTIVA; INTERPOLATION DATA CONFIGURATION.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// Maximum number of records in the interpolation buffer.
-            ///
-            /// Maximum buffer size: Range 2 to 2, default 2, 0x60C4:01, UNSIGNED8, read-only.
-            /// Constant: [`MAXIMUM_BUFFER_SIZE`].
-            pub fn maximum_buffer_size(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                MAXIMUM_BUFFER_SIZE.at(self.client)
-            }
-            /// Number of records in use in the interpolation buffer.
-            ///
-            /// Actual size: Range 0 to 2, default 0, 0x60C4:02, UNSIGNED8, read-write.
-            /// Constant: [`ACTUAL_SIZE`].
-            pub fn actual_size(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                ACTUAL_SIZE.at(self.client)
-            }
-            /// Organization of the interpolation buffer. The value must be 0.
-            ///
-            /// Buffer organisation: Range 0 to 0, default 0, 0x60C4:03, UNSIGNED8, read-write.
-            /// Constant: [`BUFFER_ORGANISATION`].
-            pub fn buffer_organisation(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                BUFFER_ORGANISATION.at(self.client)
-            }
-            /// Number of the accessed record in the interpolation buffer.
-            ///
-            /// Buffer position: Range 0 to 1, default 0, 0x60C4:04, UNSIGNED8, read-write, mappable into RPDOs.
-            /// Constant: [`BUFFER_POSITION`].
-            pub fn buffer_position(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                BUFFER_POSITION.at(self.client)
-            }
-            /// Size of one record of the interpolation buffer.
-            ///
-            /// Size of data record: Range 1 to 1, default 1, 0x60C4:05, UNSIGNED8, read-only.
-            /// Constant: [`SIZE_OF_DATA_RECORD`].
-            ///
-            /// Note: The only valid record size is 1, but a record of the interpolation buffer contains a position of 4 bytes. Assumed: the record size is 1, without a unit (the unit of the record size cannot be bytes, and the manual states no unit). Manual: INTERPOLATION DATA RECORD; INTERPOLATION DATA CONFIGURATION.
-            pub fn size_of_data_record(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                SIZE_OF_DATA_RECORD.at(self.client)
-            }
-            /// Clears the interpolation buffer or enables access to it.
-            ///
-            /// Buffer clear: Range 0 to 1, default 0, 0x60C4:06, UNSIGNED8, write-only.
-            /// Constant: [`BUFFER_CLEAR`]. Value type: [`BufferClear`](super::super::types::BufferClear).
-            ///
-            /// Note: The table of values of 0x60C4:6 is headed "Modo operativo" (mode of operation). Assumed: the table lists the values of 0x60C4:6 (the rows of the table describe actions on the interpolation buffer, not modes of operation). Manual: INTERPOLATION DATA CONFIGURATION.
-            pub fn buffer_clear(
-                &mut self,
-            ) -> super::WriteOnlyAccess<
-                '_,
-                C,
-                super::super::types::BufferClear,
-                rt::OnCanOpenAndCoE,
-            > {
-                BUFFER_CLEAR.at(self.client)
-            }
+        /// Maximum number of records in the interpolation buffer.
+        ///
+        /// Maximum buffer size: Range 2 to 2, default 2, 0x60C4:01, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_data_configuration::MAXIMUM_BUFFER_SIZE`].
+        pub fn maximum_buffer_size(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::MAXIMUM_BUFFER_SIZE.at(self.client)
+        }
+        /// Number of records in use in the interpolation buffer.
+        ///
+        /// Actual size: Range 0 to 2, default 0, 0x60C4:02, UNSIGNED8, read-write.
+        /// Constant: [`interpolation_data_configuration::ACTUAL_SIZE`].
+        pub fn actual_size(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::ACTUAL_SIZE.at(self.client)
+        }
+        /// Organization of the interpolation buffer. The value must be 0.
+        ///
+        /// Buffer organisation: Range 0 to 0, default 0, 0x60C4:03, UNSIGNED8, read-write.
+        /// Constant: [`interpolation_data_configuration::BUFFER_ORGANISATION`].
+        pub fn buffer_organisation(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::BUFFER_ORGANISATION.at(self.client)
+        }
+        /// Number of the accessed record in the interpolation buffer.
+        ///
+        /// Buffer position: Range 0 to 1, default 0, 0x60C4:04, UNSIGNED8, read-write, mappable into RPDOs.
+        /// Constant: [`interpolation_data_configuration::BUFFER_POSITION`].
+        pub fn buffer_position(
+            &mut self,
+        ) -> ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::BUFFER_POSITION.at(self.client)
+        }
+        /// Size of one record of the interpolation buffer.
+        ///
+        /// Size of data record: Range 1 to 1, default 1, 0x60C4:05, UNSIGNED8, read-only.
+        /// Constant: [`interpolation_data_configuration::SIZE_OF_DATA_RECORD`].
+        ///
+        /// Note: The only valid record size is 1, but a record of the interpolation buffer contains a position of 4 bytes. Assumed: the record size is 1, without a unit (the unit of the record size cannot be bytes, and the manual states no unit). Manual: INTERPOLATION DATA RECORD; INTERPOLATION DATA CONFIGURATION.
+        pub fn size_of_data_record(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::SIZE_OF_DATA_RECORD.at(self.client)
+        }
+        /// Clears the interpolation buffer or enables access to it.
+        ///
+        /// Buffer clear: Range 0 to 1, default 0, 0x60C4:06, UNSIGNED8, write-only.
+        /// Constant: [`interpolation_data_configuration::BUFFER_CLEAR`]. Value type: [`BufferClear`](super::types::BufferClear).
+        ///
+        /// Note: The table of values of 0x60C4:6 is headed "Modo operativo" (mode of operation). Assumed: the table lists the values of 0x60C4:6 (the rows of the table describe actions on the interpolation buffer, not modes of operation). Manual: INTERPOLATION DATA CONFIGURATION.
+        pub fn buffer_clear(
+            &mut self,
+        ) -> WriteOnlyAccess<'_, C, super::types::BufferClear, rt::OnCanOpenAndCoE> {
+            interpolation_data_configuration::BUFFER_CLEAR.at(self.client)
         }
     }
     /// Digital inputs: Range 0 to 4294902007, default 0, 0x60FD:00, UNSIGNED32, read-only, mappable into TPDOs.
@@ -52697,8 +52191,8 @@ pub mod objects {
     /// Digital outputs.
     ///
     /// RECORD 0x60FE.
-    pub mod digital_outputs {
-        use ::lexibus as rt;
+    pub enum digital_outputs {}
+    impl digital_outputs {
         /// Number of entries: Default 2, 0x60FE:00, UNSIGNED8, read-only.
         /// Accessor: [`DigitalOutputsAccessors::number_of_entries`].
         ///
@@ -52707,91 +52201,89 @@ pub mod objects {
         /// Description from CiA 402, 9.3.16. Manual: DIGITAL OUTPUTS.
         ///
         /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; DIGITAL OUTPUTS.
-        pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
+        pub const NUMBER_OF_ENTRIES: ReadOnly<u8, rt::OnCanOpenAndCoE> = ReadOnlyU8OnCanOpenCoE::shared_object_with_default(
             0x60FE,
             0x00,
             "Number of entries",
             2,
         );
         /// Physical outputs: Range 0 to 16711680, default 0, 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
-        /// Accessor: [`DigitalOutputsAccessors::physical_outputs`]. Value type: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
+        /// Accessor: [`DigitalOutputsAccessors::physical_outputs`]. Value type: [`ProfileDigitalOutputs`](super::types::ProfileDigitalOutputs).
         ///
         /// States of the eight digital outputs. A write changes only outputs that the bit mask enables.
         ///
         /// Manual: DIGITAL OUTPUTS: Physical\_output.
-        pub const PHYSICAL_OUTPUTS: super::ReadWrite<
-            super::super::types::ProfileDigitalOutputs,
+        pub const PHYSICAL_OUTPUTS: ReadWrite<
+            super::types::ProfileDigitalOutputs,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedProfileDigitalOutputsOnCanOpenCoE::new(
+        > = ReadWriteNamedProfileDigitalOutputsOnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x60FE, 0x01),
             "Physical outputs",
-            rt::Range::To(
-                super::super::types::ProfileDigitalOutputs::from_raw(16711680),
-            ),
-            rt::Initial::Value(super::super::types::ProfileDigitalOutputs::from_raw(0)),
+            rt::Range::To(super::types::ProfileDigitalOutputs::from_raw(16711680)),
+            rt::Initial::Value(super::types::ProfileDigitalOutputs::from_raw(0)),
             "",
             rt::Flags::RPDO,
         );
         /// Bit mask: Range 0 to 4294967295, default 0xFF0000, 0x60FE:02, UNSIGNED32, read-write, mappable into RPDOs.
-        /// Accessor: [`DigitalOutputsAccessors::bit_mask`]. Value type: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
+        /// Accessor: [`DigitalOutputsAccessors::bit_mask`]. Value type: [`ProfileDigitalOutputs`](super::types::ProfileDigitalOutputs).
         ///
         /// Bit mask of the digital outputs. An output keeps its state if its mask bit is 0.
         ///
         /// Manual: DIGITAL OUTPUTS: bitmask.
-        pub const BIT_MASK: super::ReadWrite<
-            super::super::types::ProfileDigitalOutputs,
+        pub const BIT_MASK: ReadWrite<
+            super::types::ProfileDigitalOutputs,
             rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedProfileDigitalOutputsOnCanOpenCoE::flagged_shared_object_with_default(
+        > = ReadWriteNamedProfileDigitalOutputsOnCanOpenCoE::flagged_shared_object_with_default(
             0x60FE,
             0x02,
             "Bit mask",
             rt::Flags::RPDO,
-            super::super::types::ProfileDigitalOutputs::from_raw(0xFF0000),
+            super::types::ProfileDigitalOutputs::from_raw(0xFF0000),
         );
-        /// Accessors for the entries of the object. Digital outputs: 0x60FE.
-        pub struct DigitalOutputsAccessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. Digital outputs: 0x60FE.
+    pub struct DigitalOutputsAccessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> DigitalOutputsAccessors<'_, C> {
+        /// Number of sub-entries.
+        ///
+        /// Number of entries: Default 2, 0x60FE:00, UNSIGNED8, read-only.
+        /// Constant: [`digital_outputs::NUMBER_OF_ENTRIES`].
+        ///
+        /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; DIGITAL OUTPUTS.
+        pub fn number_of_entries(
+            &mut self,
+        ) -> ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            digital_outputs::NUMBER_OF_ENTRIES.at(self.client)
         }
-        impl<C> DigitalOutputsAccessors<'_, C> {
-            /// Number of sub-entries.
-            ///
-            /// Number of entries: Default 2, 0x60FE:00, UNSIGNED8, read-only.
-            /// Constant: [`NUMBER_OF_ENTRIES`].
-            ///
-            /// Note: The manual describes only the sub-indices 1 and 2 of the object, not sub-index 0. Assumed: sub-index 0 has the type u8, is read-only and has the value 2 (sub-index 0 of a record contains the number of entries, and the summary table states 3 sub-indices). Manual: TAVOLA RIASSUNTIVA; DIGITAL OUTPUTS.
-            pub fn number_of_entries(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
-                NUMBER_OF_ENTRIES.at(self.client)
-            }
-            /// States of the eight digital outputs. A write changes only outputs that the bit mask enables.
-            ///
-            /// Physical outputs: Range 0 to 16711680, default 0, 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
-            /// Constant: [`PHYSICAL_OUTPUTS`]. Value type: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
-            pub fn physical_outputs(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ProfileDigitalOutputs,
-                rt::OnCanOpenAndCoE,
-            > {
-                PHYSICAL_OUTPUTS.at(self.client)
-            }
-            /// Bit mask of the digital outputs. An output keeps its state if its mask bit is 0.
-            ///
-            /// Bit mask: Range 0 to 4294967295, default 0xFF0000, 0x60FE:02, UNSIGNED32, read-write, mappable into RPDOs.
-            /// Constant: [`BIT_MASK`]. Value type: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
-            pub fn bit_mask(
-                &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::ProfileDigitalOutputs,
-                rt::OnCanOpenAndCoE,
-            > {
-                BIT_MASK.at(self.client)
-            }
+        /// States of the eight digital outputs. A write changes only outputs that the bit mask enables.
+        ///
+        /// Physical outputs: Range 0 to 16711680, default 0, 0x60FE:01, UNSIGNED32, read-write, mappable into RPDOs.
+        /// Constant: [`digital_outputs::PHYSICAL_OUTPUTS`]. Value type: [`ProfileDigitalOutputs`](super::types::ProfileDigitalOutputs).
+        pub fn physical_outputs(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::ProfileDigitalOutputs,
+            rt::OnCanOpenAndCoE,
+        > {
+            digital_outputs::PHYSICAL_OUTPUTS.at(self.client)
+        }
+        /// Bit mask of the digital outputs. An output keeps its state if its mask bit is 0.
+        ///
+        /// Bit mask: Range 0 to 4294967295, default 0xFF0000, 0x60FE:02, UNSIGNED32, read-write, mappable into RPDOs.
+        /// Constant: [`digital_outputs::BIT_MASK`]. Value type: [`ProfileDigitalOutputs`](super::types::ProfileDigitalOutputs).
+        pub fn bit_mask(
+            &mut self,
+        ) -> ReadWriteAccess<
+            '_,
+            C,
+            super::types::ProfileDigitalOutputs,
+            rt::OnCanOpenAndCoE,
+        > {
+            digital_outputs::BIT_MASK.at(self.client)
         }
     }
     /// Motor type: Range 0 to 65535, default 9, 0x6402:00, UNSIGNED16, read-write.

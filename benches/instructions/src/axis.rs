@@ -160,16 +160,16 @@ impl<C> Ax1<C> {
     /// 0x2000.
     /// The constants for the object's entries are in [`objects::object_2000`].
     #[doc(alias("2000", "0x2000"))]
-    pub fn object_2000(&mut self) -> objects::object_2000::Object2000Accessors<'_, C> {
-        objects::object_2000::Object2000Accessors {
+    pub fn object_2000(&mut self) -> objects::Object2000Accessors<'_, C> {
+        objects::Object2000Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
     /// The constants for the object's entries are in [`objects::object_2001`].
     #[doc(alias("2001", "0x2001"))]
-    pub fn object_2001(&mut self) -> objects::object_2001::Object2001Accessors<'_, C> {
-        objects::object_2001::Object2001Accessors {
+    pub fn object_2001(&mut self) -> objects::Object2001Accessors<'_, C> {
+        objects::Object2001Accessors {
             client: &mut self.client,
         }
     }
@@ -2079,6 +2079,7 @@ pub mod codes {
         }
     }
 }
+#[allow(non_camel_case_types)]
 /// A handle for every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -2106,199 +2107,195 @@ pub mod objects {
     /// 0x2000.
     ///
     /// RECORD 0x2000.
-    pub mod object_2000 {
-        use ::lexibus as rt;
+    pub enum object_2000 {}
+    impl object_2000 {
         /// Ready: 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::ready`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::ready`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+        pub const READY: ReadOnly<bool> = ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x01,
             "Ready",
             rt::Flags::TPDO,
         );
         /// Mode: 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::mode`]. Value type: [`Mode`](super::types::Mode). Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
+        pub const MODE: ReadOnly<super::types::Mode> = ReadOnlyNamedMode::flagged_coe_object(
             0x2000,
             0x02,
             "Mode",
             rt::Flags::TPDO,
         );
         /// Referenced: 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::referenced`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::referenced`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+        pub const REFERENCED: ReadOnly<bool> = ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x03,
             "Referenced",
             rt::Flags::TPDO,
         );
         /// Position: 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::position`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::position`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
+        pub const POSITION: ReadOnly<rt::Int<24>> = ReadOnlyInt24::flagged_coe_object(
             0x2000,
             0x04,
             "Position",
             rt::Flags::TPDO,
         );
         /// Overflow: 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::overflow`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::overflow`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+        pub const OVERFLOW: ReadOnly<bool> = ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x05,
             "Overflow",
             rt::Flags::TPDO,
         );
         /// Quality: 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::quality`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::quality`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
+        pub const QUALITY: ReadOnly<rt::Uint<2>> = ReadOnlyUint2::flagged_coe_object(
             0x2000,
             0x06,
             "Quality",
             rt::Flags::TPDO,
         );
         /// Speed: 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2000Accessors::speed`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
+        /// Accessor: [`Object2000Accessors::speed`]. Mapped in [`Encoder`](super::pdo::Encoder).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
+        pub const SPEED: ReadOnly<i16> = ReadOnlyI16::flagged_coe_object(
             0x2000,
             0x07,
             "Speed",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of the object. 0x2000.
-        pub struct Object2000Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. 0x2000.
+    pub struct Object2000Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Object2000Accessors<'_, C> {
+        /// Ready.
+        ///
+        /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::READY`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn ready(&mut self) -> ReadOnlyAccess<'_, C, bool> {
+            object_2000::READY.at(self.client)
         }
-        impl<C> Object2000Accessors<'_, C> {
-            /// Ready.
-            ///
-            /// 0x2000:01, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`READY`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn ready(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
-                READY.at(self.client)
-            }
-            /// Mode.
-            ///
-            /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn mode(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
-                MODE.at(self.client)
-            }
-            /// Referenced.
-            ///
-            /// 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`REFERENCED`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn referenced(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
-                REFERENCED.at(self.client)
-            }
-            /// Position.
-            ///
-            /// 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
-            /// Constant: [`POSITION`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn position(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Int<24>> {
-                POSITION.at(self.client)
-            }
-            /// Overflow.
-            ///
-            /// 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`OVERFLOW`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn overflow(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
-                OVERFLOW.at(self.client)
-            }
-            /// Quality.
-            ///
-            /// 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
-            /// Constant: [`QUALITY`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn quality(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<2>> {
-                QUALITY.at(self.client)
-            }
-            /// Speed.
-            ///
-            /// 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
-            /// Constant: [`SPEED`]. Mapped in [`Encoder`](super::super::pdo::Encoder).
-            pub fn speed(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
-                SPEED.at(self.client)
-            }
+        /// Mode.
+        ///
+        /// 0x2000:02, UNSIGNED3, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::MODE`]. Value type: [`Mode`](super::types::Mode). Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn mode(&mut self) -> ReadOnlyAccess<'_, C, super::types::Mode> {
+            object_2000::MODE.at(self.client)
+        }
+        /// Referenced.
+        ///
+        /// 0x2000:03, BOOLEAN, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::REFERENCED`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn referenced(&mut self) -> ReadOnlyAccess<'_, C, bool> {
+            object_2000::REFERENCED.at(self.client)
+        }
+        /// Position.
+        ///
+        /// 0x2000:04, INTEGER24, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::POSITION`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn position(&mut self) -> ReadOnlyAccess<'_, C, rt::Int<24>> {
+            object_2000::POSITION.at(self.client)
+        }
+        /// Overflow.
+        ///
+        /// 0x2000:05, BOOLEAN, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::OVERFLOW`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn overflow(&mut self) -> ReadOnlyAccess<'_, C, bool> {
+            object_2000::OVERFLOW.at(self.client)
+        }
+        /// Quality.
+        ///
+        /// 0x2000:06, UNSIGNED2, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::QUALITY`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn quality(&mut self) -> ReadOnlyAccess<'_, C, rt::Uint<2>> {
+            object_2000::QUALITY.at(self.client)
+        }
+        /// Speed.
+        ///
+        /// 0x2000:07, INTEGER16, read-only, mappable into TPDOs.
+        /// Constant: [`object_2000::SPEED`]. Mapped in [`Encoder`](super::pdo::Encoder).
+        pub fn speed(&mut self) -> ReadOnlyAccess<'_, C, i16> {
+            object_2000::SPEED.at(self.client)
         }
     }
     /// 0x2001.
     ///
     /// RECORD 0x2001.
-    pub mod object_2001 {
-        use ::lexibus as rt;
+    pub enum object_2001 {}
+    impl object_2001 {
         /// Limit: 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2001Accessors::limit`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Object2001Accessors::limit`]. Mapped in [`ActualValues`](super::pdo::ActualValues).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+        pub const LIMIT: ReadOnly<bool> = ReadOnlyBool::flagged_coe_object(
             0x2001,
             0x01,
             "Limit",
             rt::Flags::TPDO,
         );
         /// Mode: 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2001Accessors::mode`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Object2001Accessors::mode`]. Value type: [`Mode`](super::types::Mode). Mapped in [`ActualValues`](super::pdo::ActualValues).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
+        pub const MODE: ReadOnly<super::types::Mode> = ReadOnlyNamedMode::flagged_coe_object(
             0x2001,
             0x02,
             "Mode",
             rt::Flags::TPDO,
         );
         /// Current: 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
-        /// Accessor: [`Object2001Accessors::current`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
+        /// Accessor: [`Object2001Accessors::current`]. Mapped in [`ActualValues`](super::pdo::ActualValues).
         ///
         /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-        pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
+        pub const CURRENT: ReadOnly<rt::Uint<12>> = ReadOnlyUint12::flagged_coe_object(
             0x2001,
             0x03,
             "Current",
             rt::Flags::TPDO,
         );
-        /// Accessors for the entries of the object. 0x2001.
-        pub struct Object2001Accessors<'c, C> {
-            pub(in super::super) client: &'c mut C,
+    }
+    /// Accessors for the entries of the object. 0x2001.
+    pub struct Object2001Accessors<'c, C> {
+        pub(super) client: &'c mut C,
+    }
+    impl<C> Object2001Accessors<'_, C> {
+        /// Limit.
+        ///
+        /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
+        /// Constant: [`object_2001::LIMIT`]. Mapped in [`ActualValues`](super::pdo::ActualValues).
+        pub fn limit(&mut self) -> ReadOnlyAccess<'_, C, bool> {
+            object_2001::LIMIT.at(self.client)
         }
-        impl<C> Object2001Accessors<'_, C> {
-            /// Limit.
-            ///
-            /// 0x2001:01, BOOLEAN, read-only, mappable into TPDOs.
-            /// Constant: [`LIMIT`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
-            pub fn limit(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
-                LIMIT.at(self.client)
-            }
-            /// Mode.
-            ///
-            /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
-            /// Constant: [`MODE`]. Value type: [`Mode`](super::super::types::Mode). Mapped in [`ActualValues`](super::super::pdo::ActualValues).
-            pub fn mode(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
-                MODE.at(self.client)
-            }
-            /// Current.
-            ///
-            /// 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
-            /// Constant: [`CURRENT`]. Mapped in [`ActualValues`](super::super::pdo::ActualValues).
-            pub fn current(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<12>> {
-                CURRENT.at(self.client)
-            }
+        /// Mode.
+        ///
+        /// 0x2001:02, UNSIGNED3, read-only, mappable into TPDOs.
+        /// Constant: [`object_2001::MODE`]. Value type: [`Mode`](super::types::Mode). Mapped in [`ActualValues`](super::pdo::ActualValues).
+        pub fn mode(&mut self) -> ReadOnlyAccess<'_, C, super::types::Mode> {
+            object_2001::MODE.at(self.client)
+        }
+        /// Current.
+        ///
+        /// 0x2001:03, UNSIGNED12, read-only, mappable into TPDOs.
+        /// Constant: [`object_2001::CURRENT`]. Mapped in [`ActualValues`](super::pdo::ActualValues).
+        pub fn current(&mut self) -> ReadOnlyAccess<'_, C, rt::Uint<12>> {
+            object_2001::CURRENT.at(self.client)
         }
     }
     /// Controlword: 0x6040:00, UNSIGNED16, read-write, mappable into RPDOs.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
 use super::item;
-use super::names::{is_module, Identifiers};
+use super::names::{has_entries, Identifiers};
 use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
@@ -207,7 +207,7 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
                 fact_as("index", Judgment::WIRE, index)(one, other, comparison);
             }
             // In Rust, an object with entries becomes a module, and an object without entries becomes a constant.
-            let judgment = if is_module(old) == is_module(new) { Judgment::NONE } else { Judgment::API };
+            let judgment = if has_entries(old) == has_entries(new) { Judgment::NONE } else { Judgment::API };
             fact("object code", judgment)(old_code, code, comparison);
             fact("category", Judgment::NONE)(old_category, category, comparison);
         }

@@ -45,7 +45,7 @@ fn name_requests(group: &Group) -> Vec<NameRequest<'_>> {
 }
 
 fn entries(group: &Group) -> Vec<String> {
-    if !is_module(group) {
+    if !has_entries(group) {
         return vec![String::new(); group.items.len()];
     }
     let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
@@ -54,8 +54,8 @@ fn entries(group: &Group) -> Vec<String> {
     unique(&name_requests, &[], Case::Snake)
 }
 
-/// Returns whether an object becomes a Rust module, and not a single constant.
-pub(super) fn is_module(group: &Group) -> bool {
+/// Returns whether an object becomes a type with a constant for each entry, and not a single constant.
+pub(super) fn has_entries(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }
 

@@ -48,17 +48,13 @@ impl<'i> Arguments<'i> {
         }
     }
 
-    /// Returns the shortest constructor call, and whether the call contains a path into the runtime crate. Each
-    /// additional argument increases the time that `rustc` needs for a handle by a tenth.
-    pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> (Doc, bool) {
-        if let Some(call) = self.of_object(addresses) {
-            return (call, self.flags != NO_FLAGS);
-        }
-        let call = self.of_register(addresses).unwrap_or_else(|| {
+    /// Returns the shortest constructor call. Each additional argument increases the time that `rustc` needs for a handle
+    /// by a tenth.
+    pub fn constructor(&self, addresses: &ItemAddresses<'_>, location: impl FnOnce() -> Doc) -> Doc {
+        self.of_object(addresses).or_else(|| self.of_register(addresses)).unwrap_or_else(|| {
             let Arguments { name, range, initial, flags, .. } = self;
             call!("new", location(), name, range, initial, literal::string(self.unit), flags)
-        });
-        (call, true)
+        })
     }
 
     /// Returns the arguments that may differ between the models of a device: range and initial value.

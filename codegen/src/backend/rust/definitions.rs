@@ -134,18 +134,19 @@ impl Device<'_> {
             return;
         }
         let is_reexported = |object: &ObjectModel| {
-            let name = match object.items.as_slice() {
-                [only] if !object.is_module => &only.constant,
-                _ => &object.name,
+            let names = match object.items.as_slice() {
+                [only] if !object.has_entries => vec![only.constant.as_str()],
+                _ if model.has_accessors => vec![object.name.as_str(), object.accessors.as_str()],
+                _ => vec![object.name.as_str()],
             };
             let write = |code: &mut Code| {
                 code.line(&[&model.location]);
                 print::objects::object(code, model, object);
             };
             let used = in_types(object.items.iter().filter_map(|item| item.type_name.as_deref()));
-            // If a name contains no letters, a constant and a module can have the same name. The object is then defined
+            // If a name contains no letters, a constant and a type can have the same name. The object is then defined
             // again, because a re-export of the name would include both.
-            is_cased(&object.name) && !self.is_new(&[Section::Objects], &[name], used, &write)
+            is_cased(&object.name) && !self.is_new(&[Section::Objects], &names, used, &write)
         };
         let reexported: Vec<bool> = model.objects.iter().map(is_reexported).collect();
         for (object, is_reexported) in model.objects.iter_mut().zip(reexported) {

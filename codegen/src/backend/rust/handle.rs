@@ -32,5 +32,5 @@ pub(super) fn aliases(objects: &[ObjectModel]) -> Vec<Alias> {
 pub(super) fn types<'o>(objects: impl IntoIterator<Item = &'o ObjectModel>) -> Vec<(String, &'static str, Vec<Doc>)> {
     let all = objects.into_iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
-    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments_in_objects.clone())).collect()
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.arguments.clone())).collect()
 }

@@ -22,21 +22,17 @@ pub(super) struct ItemModel {
     pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// Type arguments of the handle, as written in its own module. They are the type of the value and, unless it is the
-    /// default, the type of the location.
+    /// Type arguments of the handle, as written in the module of all handles. They are the type of the value and, unless
+    /// it is the default, the type of the location.
     pub arguments: Vec<Doc>,
     /// Type arguments of the handle, as written in the device's module.
     pub arguments_at_top: Vec<Doc>,
-    /// Type arguments of the handle, as written in the module of all handles.
-    pub arguments_in_objects: Vec<Doc>,
     /// Name of the enumeration or bit field that is the type of the value.
     pub type_name: Option<String>,
     /// Private alias of the handle's type. The alias has no type parameters, so `rustc` has nothing to infer.
     pub alias: String,
     /// Constructor call of the handle, without the type.
     pub constructor: Doc,
-    /// True if the code of the handle contains a path into the runtime crate.
-    pub names_runtime: bool,
     /// True if a literal in the handle's code may be close to a mathematical constant. Clippy reports such literals.
     pub real: bool,
     /// Address of the item's object, preferably on the bus on which the device's objects are addressed.
@@ -57,14 +53,15 @@ impl ItemModel {
         format!("{}{}", self.method, if hides { "_" } else { "" })
     }
 
-    /// Returns the expression that combines the handle with the device's client. For long names, the expression is a
-    /// function call, because a method chain would be broken into several lines.
-    pub(super) fn at_client(&self) -> Doc {
+    /// Returns the expression that combines the handle with a client. `module` is the path to the module or type that
+    /// contains the constant. For long paths, the expression is a function call, because a method chain would be broken
+    /// into several lines.
+    pub(super) fn at(&self, module: &str, client: &str) -> Doc {
         const LONG: usize = 57;
-        let path = format!("objects::{}", self.constant);
+        let path = format!("{module}::{}", self.constant);
         match path.len() > LONG {
-            true => call!("rt::Item::at", path, "&mut self.client"),
-            false => seq![path, ".at(&mut self.client)"],
+            true => call!("rt::Item::at", path, client),
+            false => seq![path, ".at(", client, ")"],
         }
     }
 }
@@ -76,49 +73,39 @@ pub(super) struct Title<'n> {
     pub chapter: Option<&'n str>,
 }
 
-/// The module that contains the handle of an item.
-#[derive(Clone, Copy)]
-pub(super) struct ItemModule<'n> {
-    /// Name of the object for which the module is generated. `None` for the module that contains all handles.
-    pub name: Option<&'n str>,
-    /// Path to the device's module.
-    pub outer: &'n str,
-}
+/// Path from the module of the handles to the device's module.
+const OUTER: &str = "super::";
 
 /// Returns the name of an item's constant. `name` is the name of the item's handle.
 pub(super) fn constant(name: &str) -> String {
     name.to_ascii_uppercase()
 }
 
-/// Returns the model of an item whose handle is in `module`.
+/// Returns the model of an item. `method_module` is the module that contains the item's accessor.
 pub(super) fn model(
     context: &Context<'_>,
     locations: &Locations,
     entry: &NamedItem<'_>,
     title: Title<'_>,
-    module: ItemModule<'_>,
+    method_module: DocModule<'_>,
 ) -> ItemModel {
     let NamedItem { id, item, name } = entry;
-    let (Title { original, chapter }, ItemModule { name: module, outer }) = (title, module);
-    let path = module.map(|module| format!("objects::{module}::"));
-    let (doc_module, method_module) = match &path {
-        Some(path) => (DocModule::new(outer, path), DocModule::new(outer, path)),
-        None => (DocModule::OBJECTS, DocModule::TOP),
-    };
+    let Title { original, chapter } = title;
     let addresses = ItemAddresses::of(context, item);
     let heading = heading(original, &addresses.heading());
     let ty = ItemType::of(context, item);
-    let location = |outer: &str| locations.argument(addresses.buses(), outer);
+    let location = |handles: &str| locations.argument(addresses.buses(), handles);
     let on = location("").map(|_| addresses.buses().word()).unwrap_or_default();
-    let types = |outer: &str| exact(std::iter::once(ty.path(outer)).chain(location(outer).map(Doc::from)).collect());
-    let is_location_of_runtime = location(outer).is_some() && addresses.buses().path().is_some();
-    let (constructor, does_call_name_runtime) = Arguments::of(item, original, &ty, outer)
-        .constructor(&addresses, || locations.code(context, &addresses, outer));
+    let types = |outer: &str, handles: &str| {
+        exact(std::iter::once(ty.path(outer)).chain(location(handles).map(Doc::from)).collect())
+    };
+    let constructor =
+        Arguments::of(item, original, &ty, OUTER).constructor(&addresses, || locations.code(context, &addresses));
     ItemModel {
         id: *id,
         constant: constant(name),
         method: names::escaped(name),
-        docs: exact(docs::item(entry, original, chapter, context, doc_module)),
+        docs: exact(docs::item(entry, original, chapter, context, DocModule::OBJECTS)),
         method_docs: if context.links.has_methods {
             exact(docs::method(entry, original, context, method_module))
         } else {
@@ -126,12 +113,10 @@ pub(super) fn model(
         },
         heading,
         access: alias(item.access),
-        arguments: types(outer),
-        arguments_at_top: types(""),
-        arguments_in_objects: types("super::"),
+        arguments: types(OUTER, ""),
+        arguments_at_top: types("", "objects::"),
         type_name: ty.named.map(str::to_owned),
         alias: format!("{}{}{on}", alias(item.access), ty.word()),
-        names_runtime: ty.names_runtime() || is_location_of_runtime || does_call_name_runtime,
         constructor,
         real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
         object: addresses.object_on(context.bus),

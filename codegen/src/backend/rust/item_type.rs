@@ -36,11 +36,6 @@ impl<'s> ItemType<'s> {
         }
     }
 
-    /// Returns whether the path of the type leads into the runtime crate.
-    pub fn names_runtime(&self) -> bool {
-        self.named.is_none() && (self.quantity.is_some() || !matches!(self.basic, ValueType::Native { .. }))
-    }
-
     /// Returns the name of the type for use in other names.
     pub fn word(&self) -> String {
         match (self.named, &self.quantity) {

@@ -181,13 +181,12 @@ impl Links {
         }
         for object in &names.objects {
             for entry in &object.entries {
-                if !object.is_module {
+                if !object.has_entries {
                     self.add_handle(scope, entry, device);
                     continue;
                 }
                 let constant = format!("objects::{}::{}", object.name, entry.name.to_ascii_uppercase());
-                let method =
-                    device.map(|_| format!("objects::{}::{}::{}", object.name, object.accessors(), entry.name));
+                let method = device.map(|_| format!("objects::{}::{}", object.accessors, entry.name));
                 self.add(scope, entry, Handle { constant, method });
             }
         }
@@ -195,8 +194,8 @@ impl Links {
 
     fn add_handle(&mut self, scope: &Scope<'_>, entry: &NamedItem<'_>, device: Option<&str>) {
         let name = &entry.name;
-        // If the name has no letters, a module may have the same name, so the link must state that it means the
-        // constant.
+        // If the name has no letters, the type of an object may have the same name, so the link must state that it means
+        // the constant.
         let kind = if is_cased(name) { "" } else { "const@" };
         let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
@@ -281,8 +280,8 @@ fn sentence(start: &str, paths: &[&str], doc_module: DocModule<'_>) -> String {
     if paths.is_empty() {
         return String::new();
     }
-    // Constants in the modules of different objects may have the same name, so the module of the object is kept. The
-    // names of top-level modules are omitted.
+    // Constants of different objects may have the same name, so the name of the object is kept. The names of top-level
+    // modules are omitted.
     let name = |path: &str| {
         let path = path.split_once('@').map_or(path, |(_, path)| path);
         path.split_once("::").map_or(path, |(_, name)| name).to_owned()
@@ -302,9 +301,10 @@ mod tests {
 
     #[test]
     fn paths_are_relative() {
-        let object = DocModule::new("super::super::", "objects::identity::");
-        assert_eq!(object.code("objects::identity::VENDOR_ID"), "[`VENDOR_ID`]");
-        assert_eq!(object.code("Drive::speed"), "[`speed`](super::super::Drive::speed)");
+        let objects = DocModule::OBJECTS;
+        assert_eq!(objects.code("objects::identity::VENDOR_ID"), "[`VENDOR_ID`](identity::VENDOR_ID)");
+        assert_eq!(objects.whole("objects::identity::VENDOR_ID"), "[`identity::VENDOR_ID`]");
+        assert_eq!(objects.code("Drive::speed"), "[`speed`](super::Drive::speed)");
         assert_eq!(DocModule::TOP.whole("objects::SPEED"), "[`objects::SPEED`]");
         assert_eq!(DocModule::TYPES.code("types::Mode"), "[`Mode`]");
         assert_eq!(DocModule::OTHER.code("types::Mode"), "[`Mode`](super::types::Mode)");

@@ -61,16 +61,15 @@ impl Locations {
         self.shared.iter().enumerate().map(model).collect()
     }
 
-    /// Returns the code of an item's location. `outer` is the path from the handle's module to the device's module.
-    pub fn code(&self, context: &Context<'_>, addresses: &ItemAddresses<'_>, outer: &str) -> Doc {
+    /// Returns the code of an item's location.
+    pub fn code(&self, context: &Context<'_>, addresses: &ItemAddresses<'_>) -> Doc {
         let found = addresses.maker(context, WINDOWS).and_then(|maker_call| {
             let is_same =
                 |shared: &Shared| shared.body == maker_call.body && shared.parameters == maker_call.parameters;
             let at = self.shared.iter().position(is_same)?;
-            Some(list(&format!("{}{}(", path_to_handles(outer), maker(at)), maker_call.arguments, ")"))
+            Some(list(&format!("{}(", maker(at)), maker_call.arguments, ")"))
         });
-        let path = self.name(addresses.buses(), path_to_handles(outer));
-        found.unwrap_or_else(|| addresses.code(context, &path, &format!("{outer}windows::")))
+        found.unwrap_or_else(|| addresses.code(context, &self.name(addresses.buses(), ""), WINDOWS))
     }
 
     /// Returns the name of a location type. `outer` is the path to the module of the handles.
@@ -88,19 +87,11 @@ impl Locations {
         unnamed.map(|buses| (buses.word(), docs(buses), buses.fields())).collect()
     }
 
-    /// Returns the type argument for the location. Returns `None` if the location has the default type.
+    /// Returns the type argument for the location. `outer` is the path to the module of the handles. Returns `None` if
+    /// the location has the default type.
     pub fn argument(&self, buses: Buses, outer: &str) -> Option<String> {
-        if buses == self.usual {
-            return None;
-        }
-        let outer = if outer.is_empty() { "objects::" } else { path_to_handles(outer) };
-        Some(self.name(buses, outer))
+        (buses != self.usual).then(|| self.name(buses, outer))
     }
-}
-
-/// Returns the path to the module of the handles. `outer` is the path to the device's module.
-fn path_to_handles(outer: &str) -> &str {
-    outer.strip_prefix("super::").unwrap_or(outer)
 }
 
 /// Returns the default location type. The default is the union of all location types if all of them are direct.

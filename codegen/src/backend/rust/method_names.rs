@@ -1,6 +1,6 @@
-//! Reserved names of methods and of objects' modules, and method names for which clippy expects a certain signature.
+//! Reserved names of methods and of objects' types, and method names for which clippy expects a certain signature.
 
-/// Names that objects' modules and methods must not have. These are keywords, methods and modules of the device, and
+/// Names that objects' types and methods must not have. These are keywords, methods and modules of the device, and
 /// names that would hide a primitive type or the runtime. Methods that all types have and that take `self` by value are
 /// also included.
 pub(super) const RESERVED: [&str; 31] = [

@@ -1,10 +1,10 @@
-//! Objects and registers, ready to be printed. An object becomes a handle or a module of handles; a register becomes a
-//! handle.
+//! Objects and registers, ready to be printed. An object becomes a handle, or a type whose constants are the handles of
+//! the entries. A register becomes a handle.
 
 use super::code::Doc;
 use super::context::Context;
 use super::docs;
-use super::item::{self, ItemModel, ItemModule, Title};
+use super::item::{self, ItemModel, Title};
 use super::links::DocModule;
 use super::locations::Locations;
 use super::method_names::method_allow;
@@ -14,8 +14,8 @@ use crate::ir::{Binding, Item, ObjectCode};
 use crate::names;
 use crate::number::hex16;
 
-/// An object or register, ready to be printed. An object becomes a module if it has sub-indices above 0 or several
-/// values. Other objects and registers become handles.
+/// An object or register, ready to be printed. An object becomes a type with a constant for each entry if it has
+/// sub-indices above 0 or several values. Other objects and registers become handles.
 pub(super) struct ObjectModel {
     pub name: String,
     /// Title of the area: a chapter, a range of objects, or "Process images".
@@ -26,10 +26,10 @@ pub(super) struct ObjectModel {
     pub accessors: String,
     pub docs: Vec<String>,
     pub heading: String,
-    /// Link to the module of the object's constants. Empty for a register.
+    /// Link to the type with the object's constants. Empty for a register.
     pub constants: String,
     pub items: Vec<ItemModel>,
-    pub is_module: bool,
+    pub has_entries: bool,
     /// True if the device re-exports the definition from an earlier device of the file.
     pub is_reexported: bool,
     pub method_allow: Option<String>,
@@ -38,7 +38,7 @@ pub(super) struct ObjectModel {
 impl ObjectModel {
     /// Returns the path of an item's constant.
     pub(super) fn path(&self, item: &ItemModel) -> String {
-        match self.is_module {
+        match self.has_entries {
             true => format!("objects::{}::{}", self.name, item.constant),
             false => format!("objects::{}", item.constant),
         }
@@ -50,14 +50,9 @@ impl ObjectModel {
         self.items.iter().any(|item| item.mappable.is_some() || item.object.is_some_and(|(index, _)| index >= 0x2000))
     }
 
-    /// Returns whether the code of the items contains a path into the runtime crate.
-    pub(super) fn names_runtime(&self) -> bool {
-        self.items.iter().any(|item| item.names_runtime)
-    }
-
-    /// Drops the documentation of the device's accessor method for the object, unless the object is a module.
+    /// Drops the documentation of the device's accessor method for the object, unless the object has entries.
     pub(super) fn drop_method_docs(&mut self) {
-        if !self.is_module {
+        if !self.has_entries {
             self.items.iter_mut().for_each(|item| item.method_docs = Vec::new());
         }
     }
@@ -67,7 +62,7 @@ impl ObjectModel {
         (self.docs, self.heading) = Default::default();
         for item in &mut self.items {
             (item.docs, item.method_docs, item.heading) = Default::default();
-            (item.arguments, item.arguments_at_top, item.arguments_in_objects) = Default::default();
+            (item.arguments, item.arguments_at_top) = Default::default();
             item.constructor = Doc::default();
         }
     }
@@ -82,7 +77,7 @@ pub(super) fn models(context: &Context<'_>, locations: &Locations) -> Vec<Object
 
 fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<'_>) -> ObjectModel {
     let title = Title { original: &named.entry.item.name, chapter: Some(named.chapter) };
-    let model = item::model(context, locations, &named.entry, title, ItemModule { name: None, outer: "super::" });
+    let model = item::model(context, locations, &named.entry, title, DocModule::TOP);
     ObjectModel {
         area: if named.chapter.is_empty() { "Process images".to_owned() } else { named.chapter.to_owned() },
         aliases: aliases(named.entry.item),
@@ -93,26 +88,20 @@ fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<
         method_allow: None,
         name: names::escaped(&named.entry.name),
         items: vec![model],
-        is_module: false,
+        has_entries: false,
         is_reexported: false,
     }
 }
 
 fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>) -> ObjectModel {
-    let NamedObject { group, name, is_module, entries, .. } = named;
+    let NamedObject { group, name, has_entries, accessors, entries, .. } = named;
     let index = group.index().unwrap_or(0);
     let address = hex16(index);
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
-    let (name_of_module, outer) = if *is_module { (Some(name.as_str()), "super::super::") } else { (None, "super::") };
+    let method_module = if *has_entries { DocModule::OBJECTS } else { DocModule::TOP };
     let model = |entry: &NamedItem<'_>| {
-        let original = if *is_module { &entry.item.name } else { &group.name };
-        item::model(
-            context,
-            locations,
-            entry,
-            Title { original, chapter: None },
-            ItemModule { name: name_of_module, outer },
-        )
+        let original = if *has_entries { &entry.item.name } else { &group.name };
+        item::model(context, locations, entry, Title { original, chapter: None }, method_module)
     };
     let items: Vec<ItemModel> = entries.iter().map(model).collect();
     let code = group.object_code().map_or("", ObjectCode::name);
@@ -121,17 +110,17 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
     ObjectModel {
         area: area::objects(index).to_owned(),
         aliases: index_aliases(index).into(),
-        accessors: named.accessors(),
+        accessors: accessors.clone(),
         docs: vec![docs::sentence(&title), String::new(), facts.join(" ")],
         heading: item::heading(&group.name, &address),
-        // A constant may have the same name as the module if the name has no letters. The prefix `mod@` then makes the
-        // link lead to the module.
+        // A constant may have the same name as the type if the name has no letters. The prefix `type@` then makes the
+        // link lead to the type.
         constants: DocModule::TOP
-            .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "mod@" })),
+            .whole(&format!("{}objects::{name}", if handles::is_cased(name) { "" } else { "type@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
         name: names::escaped(name),
         items,
-        is_module: *is_module,
+        has_entries: *has_entries,
         is_reexported: false,
     }
 }
@@ -167,7 +156,7 @@ pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item 
     let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
     entries.map(|(object, entry)| {
         let constant = item::constant(&entry.name);
-        let path = match object.is_module {
+        let path = match object.has_entries {
             true => format!("objects::{}::{constant}", names::escaped(&object.name)),
             false => format!("objects::{constant}"),
         };
@@ -180,7 +169,7 @@ pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&
     let call = |name: &str| format!("{}()", names::escaped(name));
     let HandleNames { registers, objects } = &context.names.handles;
     let entries = objects.iter().flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
-    let entries = entries.map(move |(object, entry)| match object.is_module {
+    let entries = entries.map(move |(object, entry)| match object.has_entries {
         true => (entry, format!("{}.{}", call(&object.name), call(&entry.name))),
         false => (entry, call(&entry.name)),
     });

@@ -12,7 +12,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &
     })
 }
 
-/// Returns whether an object becomes a module, and not a single handle.
-pub(super) fn is_module(group: &Group) -> bool {
+/// Returns whether an object becomes a type with a constant for each entry, and not a single handle.
+pub(super) fn has_entries(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }

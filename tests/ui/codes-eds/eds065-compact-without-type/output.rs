@@ -2,7 +2,7 @@
         /// Accessor: [`ArrayAccessors::second`].
         ///
         /// Type and access rights from the rule for missing or unknown attributes.
-        pub const SECOND: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
+        pub const SECOND: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
             0x2002,
             0x02,
             "Second",

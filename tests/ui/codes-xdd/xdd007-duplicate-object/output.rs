@@ -3,7 +3,7 @@
     pub const LAST: ReadOnly<u16> = ReadOnlyU16::object(0x2000, 0x00, "Last");
         /// Last sub: 0x2001:01, UNSIGNED16, read-write.
         /// Accessor: [`RecordAccessors::last_sub`].
-        pub const LAST_SUB: super::ReadWrite<u16> = super::ReadWriteU16::object(
+        pub const LAST_SUB: ReadWrite<u16> = ReadWriteU16::object(
             0x2001,
             0x01,
             "Last sub",

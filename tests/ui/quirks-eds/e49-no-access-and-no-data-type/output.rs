@@ -25,7 +25,7 @@
         /// Accessor: [`SubWithoutTypeAccessors::count`].
         ///
         /// Type from the rule for missing or unknown attributes.
-        pub const COUNT: super::ReadOnly<rt::Opaque> = super::ReadOnlyOpaque::object(
+        pub const COUNT: ReadOnly<rt::Opaque> = ReadOnlyOpaque::object(
             0x2003,
             0x00,
             "Count",

@@ -60,10 +60,10 @@
                 "Filter",
             );
                 /// In 1: 0x6000:01, BOOLEAN, read-only, mappable into TPDOs.
-                /// Mapped in [`Inputs`](super::super::pdo::Inputs).
+                /// Mapped in [`Inputs`](super::pdo::Inputs).
                 ///
                 /// Access rights and PDO mapping from the rule for objects that occur only in PDOs.
-                pub const IN_1: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
+                pub const IN_1: ReadOnly<bool> = ReadOnlyBool::flagged_coe_object(
                     0x6000,
                     0x01,
                     "In 1",

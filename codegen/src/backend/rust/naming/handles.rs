@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use crate::backend::rust::item_addresses::ItemAddresses;
 use crate::backend::rust::located::{Located, Register};
 use crate::backend::rust::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
-use crate::backend::rust::reachable::{addressable, is_module};
+use crate::backend::rust::reachable::{addressable, has_entries};
 use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, NameRequest};
 
-/// Names that are reserved in the module of an object. Clippy would mistake a method `new` for a constructor. Methods
+/// Names that are reserved for the entries of an object. Clippy would mistake a method `new` for a constructor. Methods
 /// that all types have would hide `into` and `try_into`. Constants have upper-case names and cannot conflict with the
 /// reserved names.
 const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
@@ -32,17 +32,12 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// True if the object becomes a Rust module. Otherwise, the only value has the name of the object.
-    pub is_module: bool,
+    /// True if the object becomes a type with a constant for each entry. Otherwise, the only value has the name of the
+    /// object.
+    pub has_entries: bool,
+    /// Name of the type that has the accessors of the entries. Empty if the object has no entries.
+    pub accessors: String,
     pub entries: Vec<NamedItem<'a>>,
-}
-
-impl NamedObject<'_> {
-    /// Returns the name of the type that has the accessors of the object's entries.
-    pub fn accessors(&self) -> String {
-        let request = NameRequest { name: &self.name, fallback: "entries".to_owned(), suffix: String::new() };
-        format!("{}Accessors", names::identifier(&request, Case::Pascal))
-    }
 }
 
 /// The Rust names of all handles.
@@ -65,12 +60,14 @@ impl<'a> HandleNames<'a> {
         });
         let registers = registers.collect();
         let objects = addressable(located).zip(names).map(|((position, group), name)| {
-            let is_module = is_module(group);
-            let entries = if is_module { entry_names(group) } else { vec![name.clone()] };
+            let has_entries = has_entries(group);
+            let entries = if has_entries { entry_names(group) } else { vec![name.clone()] };
             let entries = group.items_at(position).zip(entries).map(|((id, item), name)| NamedItem { id, item, name });
-            NamedObject { group, position, is_module, entries: entries.collect(), name }
+            NamedObject { group, position, has_entries, entries: entries.collect(), accessors: String::new(), name }
         });
-        HandleNames { registers, objects: objects.collect() }
+        let mut objects: Vec<NamedObject<'_>> = objects.collect();
+        name_accessors(&mut objects);
+        HandleNames { registers, objects }
     }
 
     /// Returns whether the device or module has no handles.
@@ -108,7 +105,7 @@ impl<'a> HandleNames<'a> {
         }
         let at = self.objects.binary_search_by_key(&id.group, |object| object.position).ok()?;
         let object = &self.objects[at];
-        Some((Some(object).filter(|object| object.is_module), object.entries.get(id.item as usize)?))
+        Some((Some(object).filter(|object| object.has_entries), object.entries.get(id.item as usize)?))
     }
 }
 
@@ -127,7 +124,21 @@ fn unique(located: &Located<'_>) -> Vec<String> {
     names::unique(&name_requests, &reserved, Case::Snake)
 }
 
-/// Returns whether a name has letters, so that a constant with this name differs from a module or method.
+/// Names the types with the accessors of entries. Two objects can need the same name, because names that differ in
+/// their underscores can be equal in camel case.
+fn name_accessors(objects: &mut [NamedObject<'_>]) {
+    let objects: Vec<&mut NamedObject<'_>> = objects.iter_mut().filter(|object| object.has_entries).collect();
+    let name_requests: Vec<NameRequest<'_>> = objects
+        .iter()
+        .map(|object| NameRequest::new(&object.name, "object", format!("{:04X}", object.group.index().unwrap_or(0))))
+        .collect();
+    let names = names::unique(&name_requests, &[], Case::Pascal);
+    for (object, name) in objects.into_iter().zip(names) {
+        object.accessors = format!("{name}Accessors");
+    }
+}
+
+/// Returns whether a name has letters, so that a constant with this name differs from a type or method.
 pub(in crate::backend::rust) fn is_cased(name: &str) -> bool {
     name.to_ascii_uppercase() != name
 }

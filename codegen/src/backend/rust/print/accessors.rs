@@ -155,13 +155,13 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
     let function = call!(seq!["pub fn ", name], "&mut self");
     let aliases: Vec<String> = object.aliases.iter().map(|alias| literal::string(alias)).collect();
     let alias = (!aliases.is_empty()).then(|| format!("#[doc(alias({}))]", aliases.join(", ")));
-    if object.is_module {
+    if object.has_entries {
         code.doc(&object.heading);
         code.doc(&format!("The constants for the object's entries are in {}.", object.constants));
         code.lines(&alias);
-        let result = generic!(seq!["objects::", name, "::", object.accessors], "'_", "C");
+        let result = generic!(seq!["objects::", object.accessors], "'_", "C");
         open!(code, function, " -> ", result, " {");
-        open!(code, "objects::", name, "::", object.accessors, " {");
+        open!(code, "objects::", object.accessors, " {");
         line!(code, "client: &mut self.client,");
         code.close("}");
         code.close("}");
@@ -172,7 +172,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
         code.lines(&alias);
         let result = access("objects::", item.access, &item.arguments_at_top);
         open!(code, function, " -> ", result, " {");
-        line!(code, item.at_client());
+        line!(code, item.at("objects", "&mut self.client"));
         code.close("}");
     }
 }

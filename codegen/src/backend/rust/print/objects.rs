@@ -16,6 +16,9 @@ pub(super) fn write(code: &mut Code, model: &mut Model) {
     }
     let heading = format!("A handle for every {}.", model.handles[0]);
     let mut objects = std::mem::take(&mut model.objects);
+    if objects.iter().any(|object| object.has_entries && !object.is_reexported) {
+        line!(code, "#[allow(non_camel_case_types)]");
+    }
     section::write(code, model, Section::Objects, &heading, Some(true), |code| {
         locations(code, model);
         handle_types(code, model);
@@ -96,34 +99,41 @@ fn handle_types(code: &mut Code, model: &Model) {
     }
 }
 
-/// Writes an object as a module of handles, or as the handle of its only value.
+/// Writes the handle of an object's only value. If the object has entries, writes a type whose constants are the handles
+/// of the entries, and the accessors of the entries.
+///
+/// The type is named like a module would be. It is not a module, because `rustc` evaluates each constant of a module
+/// whenever it checks the crate, but evaluates a constant of a type only where it is used.
 pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
-    if !object.is_module {
-        return object.items.iter().for_each(|item| handle(code, item, ""));
+    if !object.has_entries {
+        return object.items.iter().for_each(|item| handle(code, item));
     }
     code.docs(&object.docs);
-    open!(code, "pub mod ", object.name, " {");
-    if object.names_runtime() {
-        code.use_runtime();
-    }
-    object.items.iter().for_each(|item| handle(code, item, "super::"));
+    line!(code, "pub enum ", object.name, " {}");
+    open!(code, "impl ", object.name, " {");
+    object.items.iter().for_each(|item| handle(code, item));
+    code.close("}");
     if model.has_accessors {
-        code.doc(&format!("Accessors for the entries of the object. {}", object.heading));
-        open!(code, "pub struct ", object.accessors, "<'c, C> {");
-        // Methods of the device create the accessors, so the field must be visible in the device's module. If the file
-        // has several devices, methods of any device may create the accessors.
-        let users = if model.is_one_of_several { "super::super::super" } else { "super::super" };
-        line!(code, "pub(in ", users, ") client: &'c mut C,");
-        code.close("}");
-        code.lines(&object.method_allow);
-        open!(code, "impl<C> ", object.accessors, "<'_, C> {");
-        for item in &object.items {
-            code.docs(&item.method_docs);
-            let result = access("super::", item.access, &item.arguments);
-            open!(code, call!(seq!["pub fn ", item.method], "&mut self"), " -> ", result, " {");
-            line!(code, item.constant, ".at(self.client)");
-            code.close("}");
-        }
+        accessors(code, model, object);
+    }
+}
+
+/// Writes the type with the accessors of an object's entries.
+fn accessors(code: &mut Code, model: &Model, object: &ObjectModel) {
+    code.doc(&format!("Accessors for the entries of the object. {}", object.heading));
+    open!(code, "pub struct ", object.accessors, "<'c, C> {");
+    // Methods of the device create the accessors, so the field must be visible in the device's module. If the file has
+    // several devices, methods of any device may create the accessors.
+    let users = if model.is_one_of_several { "in super::super" } else { "super" };
+    line!(code, "pub(", users, ") client: &'c mut C,");
+    code.close("}");
+    code.lines(&object.method_allow);
+    open!(code, "impl<C> ", object.accessors, "<'_, C> {");
+    for item in &object.items {
+        code.docs(&item.method_docs);
+        let result = access("", item.access, &item.arguments);
+        open!(code, call!(seq!["pub fn ", item.method], "&mut self"), " -> ", result, " {");
+        line!(code, item.at(&object.name, "self.client"));
         code.close("}");
     }
     code.close("}");
@@ -135,13 +145,13 @@ pub(super) fn access(outer: &str, access: &str, arguments: &[Doc]) -> Doc {
     list(&format!("{outer}{access}Access<"), client.iter().chain(arguments), ">")
 }
 
-/// Writes the handle of an item. `outer` is the path to the module of the handle types.
-fn handle(code: &mut Code, item: &ItemModel, outer: &str) {
+/// Writes the handle of an item.
+fn handle(code: &mut Code, item: &ItemModel) {
     code.docs(&item.docs);
     if item.real {
         line!(code, "#[allow(clippy::approx_constant)]");
     }
-    let ty = list(&format!("{outer}{}<", item.access), &item.arguments, ">");
+    let ty = list(&format!("{}<", item.access), &item.arguments, ">");
     let stop = Stop;
-    line!(code, "pub const ", item.constant, ": ", ty, " = ", stop, outer, item.alias, "::", item.constructor, ";");
+    line!(code, "pub const ", item.constant, ": ", ty, " = ", stop, item.alias, "::", item.constructor, ";");
 }
