@@ -55,6 +55,7 @@ impl<'h> DocModule<'h> {
         let at = if kind.is_empty() { "" } else { "@" };
         match path.strip_prefix(self.module) {
             Some(name) if kind.is_empty() && is_derive(name) => format!("type@{name}"),
+            Some(name) if kind.is_empty() && is_in_primitive(name) => format!("self::{name}"),
             Some(name) => format!("{kind}{at}{name}"),
             None => format!("{kind}{at}{}{path}", self.outer),
         }
@@ -78,9 +79,11 @@ impl<'h> DocModule<'h> {
     /// Returns a link whose text is the whole relative path.
     pub fn whole(self, path: &str) -> String {
         let path = self.path(path);
-        match path.split_once('@') {
-            Some((_, shown)) => format!("[`{shown}`]({path})"),
-            None => format!("[`{path}`]"),
+        let shown = path.split_once('@').map_or(path.as_str(), |(_, shown)| shown);
+        let shown = shown.strip_prefix("self::").unwrap_or(shown);
+        match shown == path {
+            true => format!("[`{path}`]"),
+            false => format!("[`{shown}`]({path})"),
         }
     }
 
@@ -108,6 +111,14 @@ pub(super) fn sibling(name: &str) -> String {
 pub(super) fn is_derive(name: &str) -> bool {
     const DERIVES: [&str; 9] = ["Clone", "Copy", "Debug", "Default", "Eq", "Hash", "Ord", "PartialEq", "PartialOrd"];
     DERIVES.contains(&name)
+}
+
+/// Returns whether rustdoc would look for the element at this path in a primitive type, such as the element of an object
+/// with the name `unit`. The path then needs the prefix `self::`.
+fn is_in_primitive(path: &str) -> bool {
+    const PRIMITIVES: [&str; 10] =
+        ["array", "f128", "f16", "fn", "never", "pointer", "reference", "slice", "tuple", "unit"];
+    path.split_once("::").is_some_and(|(object, _)| PRIMITIVES.contains(&object))
 }
 
 /// Returns the last component of a path.
@@ -304,6 +315,7 @@ mod tests {
         let objects = DocModule::OBJECTS;
         assert_eq!(objects.code("objects::identity::VENDOR_ID"), "[`VENDOR_ID`](identity::VENDOR_ID)");
         assert_eq!(objects.whole("objects::identity::VENDOR_ID"), "[`identity::VENDOR_ID`]");
+        assert_eq!(objects.whole("objects::unit::SPEED"), "[`unit::SPEED`](self::unit::SPEED)");
         assert_eq!(objects.code("Drive::speed"), "[`speed`](super::Drive::speed)");
         assert_eq!(DocModule::TOP.whole("objects::SPEED"), "[`objects::SPEED`]");
         assert_eq!(DocModule::TYPES.code("types::Mode"), "[`Mode`]");
