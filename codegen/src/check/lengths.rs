@@ -20,29 +20,30 @@ fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnos
 }
 
 fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
-    // An object address does not depend on the length.
-    if !matches!(binding, Binding::EscMemory { .. } | Binding::Register(_)) {
-        return;
-    }
+    let (code, message) = match binding {
+        Binding::EscMemory { length, .. } => {
+            let Some(bits) = bits(owner, item).filter(|bits| bits.div_ceil(8) != u32::from(*length)) else { return };
+            (&codes::LENGTH_MISMATCH, format!("has {length} bytes of ESC memory, but its type has {bits} bits"))
+        }
+        Binding::Register(register)
+            if register.bit_offset.is_none()
+                && matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input) =>
+        {
+            let Some(bits) = bits(owner, item).filter(|bits| is_odd(owner, item, *bits)) else { return };
+            (&codes::REGISTER_SPAN, format!("has {bits} bits, which is not a whole number of bytes"))
+        }
+        _ => return,
+    };
+    report(item, code, Span::default(), format!("`{}` {message}", brief(&item.name)), diagnostics);
+}
+
+/// Returns the length of an item's type in bits.
+fn bits(owner: Owner<'_>, item: &Item) -> Option<u32> {
     let basic = || match stated::ty(owner, item) {
         Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
         ty => ty.bits(),
     };
-    let Some(bits) = stated::definition(owner, item).map_or_else(basic, |definition| definition.bits) else { return };
-    let name = brief(&item.name);
-    match binding {
-        Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {
-            let message = format!("`{name}` has {length} bytes of ESC memory, but its type has {bits} bits");
-            report(item, &codes::LENGTH_MISMATCH, Span::default(), message, diagnostics);
-        }
-        Binding::Register(register) if is_odd(owner, item, bits) && register.bit_offset.is_none() => {
-            if matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input) {
-                let message = format!("`{name}` has {bits} bits, which is not a whole number of bytes");
-                report(item, &codes::REGISTER_SPAN, Span::default(), message, diagnostics);
-            }
-        }
-        _ => {}
-    }
+    stated::definition(owner, item).map_or_else(basic, |definition| definition.bits)
 }
 
 /// Returns whether the length of an integer is not a whole number of bytes. A single bit is excluded, because it

@@ -348,6 +348,12 @@ impl Group {
         }
     }
 
+    /// Returns whether the object has entries: sub-indices above 0, or several values. In Rust, such an object becomes a type
+    /// with a constant for each entry. Any other object becomes a single constant.
+    pub fn has_entries(&self) -> bool {
+        self.object_code().is_some_and(ObjectCode::has_subs) || self.items.len() != 1
+    }
+
     /// Returns the item at a sub-index.
     pub fn sub(&self, sub_index: u8) -> Option<&Item> {
         self.items.get(self.position(sub_index)?)

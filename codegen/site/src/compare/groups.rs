@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::change::Judgment;
 use super::comparison::{compare_fields, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
 use super::item;
-use super::names::{has_entries, Identifiers};
+use super::names::Identifiers;
 use super::pairing::{Key, Matching};
 use super::show::index;
 use lexibus_codegen::facts::address;
@@ -206,8 +206,8 @@ fn kind(old: &Group, new: &Group, comparison: &mut Comparison<'_>) {
             if !(has_index_of_items(old) && has_index_of_items(new)) {
                 fact_as("index", Judgment::WIRE, index)(one, other, comparison);
             }
-            // In Rust, an object with entries becomes a module, and an object without entries becomes a constant.
-            let judgment = if has_entries(old) == has_entries(new) { Judgment::NONE } else { Judgment::API };
+            // In Rust, an object with entries becomes a type, and an object without entries becomes a constant.
+            let judgment = if old.has_entries() == new.has_entries() { Judgment::NONE } else { Judgment::API };
             fact("object code", judgment)(old_code, code, comparison);
             fact("category", Judgment::NONE)(old_category, category, comparison);
         }

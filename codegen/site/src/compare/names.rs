@@ -1,7 +1,7 @@
 //! Determines the Rust identifiers of elements.
 
 use lexibus_codegen::facts::address;
-use lexibus_codegen::ir::{Group, GroupKind, Item, ObjectCode};
+use lexibus_codegen::ir::{Group, GroupKind, Item};
 use lexibus_codegen::names::{self, unique, Case, NameRequest};
 
 /// Returns the Rust identifier of an element whose name is unique.
@@ -45,18 +45,13 @@ fn name_requests(group: &Group) -> Vec<NameRequest<'_>> {
 }
 
 fn entries(group: &Group) -> Vec<String> {
-    if !has_entries(group) {
+    if !group.has_entries() {
         return vec![String::new(); group.items.len()];
     }
     let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
     let name_requests: Vec<NameRequest<'_>> =
         group.items.iter().map(|item| NameRequest::new(&item.name, "sub", sub_index(item))).collect();
     unique(&name_requests, &[], Case::Snake)
-}
-
-/// Returns whether an object becomes a type with a constant for each entry, and not a single constant.
-pub(super) fn has_entries(group: &Group) -> bool {
-    group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }
 
 fn suffix(item: &Item) -> String {

@@ -134,11 +134,12 @@ impl Device<'_> {
             return;
         }
         let is_reexported = |object: &ObjectModel| {
-            let names = match object.items.as_slice() {
-                [only] if !object.has_entries => vec![only.constant.as_str()],
-                _ if model.has_accessors => vec![object.name.as_str(), object.accessors.as_str()],
-                _ => vec![object.name.as_str()],
+            let name = match object.items.as_slice() {
+                [only] if !object.has_entries() => &only.constant,
+                _ => &object.name,
             };
+            let mut names = vec![name.as_str()];
+            names.extend(object.accessors.as_deref().filter(|_| model.has_accessors));
             let write = |code: &mut Code| {
                 code.line(&[&model.location]);
                 print::objects::object(code, model, object);

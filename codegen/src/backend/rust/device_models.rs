@@ -44,7 +44,7 @@ pub(super) struct ModelItem {
 /// several values are not considered. `objects` contains the handles for all models.
 pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
     let all = device.variants.iter().map(|variant| {
-        let single_values = objects.iter().filter(|object| !object.has_entries);
+        let single_values = objects.iter().filter(|object| !object.has_entries());
         let items: Vec<ModelItem> =
             single_values.filter_map(|object| model_item(context, object, &variant.name)).collect();
         (variant, constants(device, &variant.name, &variant.constants), items)

@@ -34,7 +34,7 @@ impl<'h> DocModule<'h> {
     /// Any other module in the device's module. All links in its comments lead through `super::`.
     pub const OTHER: DocModule<'static> = DocModule::new("super::", "::");
 
-    pub const fn new(outer: &'h str, module: &'h str) -> Self {
+    const fn new(outer: &'h str, module: &'h str) -> Self {
         DocModule { outer, module }
     }
 
@@ -192,12 +192,12 @@ impl Links {
         }
         for object in &names.objects {
             for entry in &object.entries {
-                if !object.has_entries {
+                let Some(accessors) = &object.accessors else {
                     self.add_handle(scope, entry, device);
                     continue;
-                }
+                };
                 let constant = format!("objects::{}::{}", object.name, entry.name.to_ascii_uppercase());
-                let method = device.map(|_| format!("objects::{}::{}", object.accessors, entry.name));
+                let method = device.map(|_| format!("objects::{accessors}::{}", entry.name));
                 self.add(scope, entry, Handle { constant, method });
             }
         }

@@ -22,23 +22,27 @@ pub(super) struct ObjectModel {
     pub area: String,
     /// Addresses under which the search of rustdoc finds the accessor.
     pub aliases: Vec<String>,
-    /// Name of the type that has the accessors of the entries.
-    pub accessors: String,
+    /// Name of the type that has the accessors of the entries. `None` if the object has no entries, and for a register.
+    pub accessors: Option<String>,
     pub docs: Vec<String>,
     pub heading: String,
     /// Link to the type with the object's constants. Empty for a register.
     pub constants: String,
     pub items: Vec<ItemModel>,
-    pub has_entries: bool,
     /// True if the device re-exports the definition from an earlier device of the file.
     pub is_reexported: bool,
     pub method_allow: Option<String>,
 }
 
 impl ObjectModel {
+    /// Returns whether the object becomes a type with a constant for each entry.
+    pub(super) fn has_entries(&self) -> bool {
+        self.accessors.is_some()
+    }
+
     /// Returns the path of an item's constant.
     pub(super) fn path(&self, item: &ItemModel) -> String {
-        match self.has_entries {
+        match self.has_entries() {
             true => format!("objects::{}::{}", self.name, item.constant),
             false => format!("objects::{}", item.constant),
         }
@@ -52,7 +56,7 @@ impl ObjectModel {
 
     /// Drops the documentation of the device's accessor method for the object, unless the object has entries.
     pub(super) fn drop_method_docs(&mut self) {
-        if !self.has_entries {
+        if !self.has_entries() {
             self.items.iter_mut().for_each(|item| item.method_docs = Vec::new());
         }
     }
@@ -81,26 +85,25 @@ fn register(context: &Context<'_>, locations: &Locations, named: &NamedRegister<
     ObjectModel {
         area: if named.chapter.is_empty() { "Process images".to_owned() } else { named.chapter.to_owned() },
         aliases: aliases(named.entry.item),
-        accessors: String::new(),
+        accessors: None,
         docs: Vec::new(),
         constants: String::new(),
         heading: model.heading.clone(),
         method_allow: None,
         name: names::escaped(&named.entry.name),
         items: vec![model],
-        has_entries: false,
         is_reexported: false,
     }
 }
 
 fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>) -> ObjectModel {
-    let NamedObject { group, name, has_entries, accessors, entries, .. } = named;
+    let NamedObject { group, name, accessors, entries, .. } = named;
     let index = group.index().unwrap_or(0);
     let address = hex16(index);
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
-    let method_module = if *has_entries { DocModule::OBJECTS } else { DocModule::TOP };
+    let method_module = if named.has_entries() { DocModule::OBJECTS } else { DocModule::TOP };
     let model = |entry: &NamedItem<'_>| {
-        let original = if *has_entries { &entry.item.name } else { &group.name };
+        let original = if named.has_entries() { &entry.item.name } else { &group.name };
         item::model(context, locations, entry, Title { original, chapter: None }, method_module)
     };
     let items: Vec<ItemModel> = entries.iter().map(model).collect();
@@ -120,7 +123,6 @@ fn object(context: &Context<'_>, locations: &Locations, named: &NamedObject<'_>)
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
         name: names::escaped(name),
         items,
-        has_entries: *has_entries,
         is_reexported: false,
     }
 }
@@ -156,7 +158,7 @@ pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item 
     let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
     entries.map(|(object, entry)| {
         let constant = item::constant(&entry.name);
-        let path = match object.has_entries {
+        let path = match object.has_entries() {
             true => format!("objects::{}::{constant}", names::escaped(&object.name)),
             false => format!("objects::{constant}"),
         };
@@ -169,7 +171,7 @@ pub(super) fn calls<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item = (&
     let call = |name: &str| format!("{}()", names::escaped(name));
     let HandleNames { registers, objects } = &context.names.handles;
     let entries = objects.iter().flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
-    let entries = entries.map(move |(object, entry)| match object.has_entries {
+    let entries = entries.map(move |(object, entry)| match object.has_entries() {
         true => (entry, format!("{}.{}", call(&object.name), call(&entry.name))),
         false => (entry, call(&entry.name)),
     });

@@ -11,8 +11,3 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = (u32, &
         group.index().is_some() && !is_type && !group.items.is_empty()
     })
 }
-
-/// Returns whether an object becomes a type with a constant for each entry, and not a single handle.
-pub(super) fn has_entries(group: &Group) -> bool {
-    group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
-}

@@ -139,7 +139,7 @@ fn set_mappable(context: &Context<'_>, objects: &mut [ObjectModel]) -> bool {
     let by_default = mapped_objects(context.pdos);
     let mut any = false;
     for object in objects {
-        let outer = if object.has_entries { "super::super::" } else { "super::" };
+        let outer = if object.has_entries() { "super::super::" } else { "super::" };
         for model in &mut object.items {
             let Some((address, item)) = model.object.and_then(|address| Some((address, items.get(&address)?))) else {
                 continue;

@@ -5,7 +5,7 @@ use super::constructor::flags;
 use super::context::Context;
 use super::item_addresses::{ItemAddresses, ObjectAddress};
 use super::literal;
-use super::reachable::{addressable, has_entries};
+use super::reachable::addressable;
 use super::value_type::ValueType;
 use super::variant;
 use crate::facts::encoding;
@@ -33,7 +33,7 @@ pub(super) struct EntryModel {
 pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {
-        let by_object = !has_entries(group);
+        let by_object = !group.has_entries();
         for item in &group.items {
             entries(context, item, if by_object { &group.name } else { &item.name }, &mut rows);
         }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use crate::backend::rust::item_addresses::ItemAddresses;
 use crate::backend::rust::located::{Located, Register};
 use crate::backend::rust::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
-use crate::backend::rust::reachable::{addressable, has_entries};
+use crate::backend::rust::reachable::addressable;
 use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, NameRequest};
 
@@ -32,12 +32,17 @@ pub(in crate::backend::rust) struct NamedObject<'a> {
     pub group: &'a Group,
     position: u32,
     pub name: String,
-    /// True if the object becomes a type with a constant for each entry. Otherwise, the only value has the name of the
-    /// object.
-    pub has_entries: bool,
-    /// Name of the type that has the accessors of the entries. Empty if the object has no entries.
-    pub accessors: String,
+    /// Name of the type that has the accessors of the entries. `None` if the object has no entries.
+    pub accessors: Option<String>,
+    /// The entries. If the object has none, this is its only value, which has the name of the object.
     pub entries: Vec<NamedItem<'a>>,
+}
+
+impl NamedObject<'_> {
+    /// Returns whether the object becomes a type with a constant for each entry.
+    pub fn has_entries(&self) -> bool {
+        self.accessors.is_some()
+    }
 }
 
 /// The Rust names of all handles.
@@ -59,15 +64,15 @@ impl<'a> HandleNames<'a> {
             entry: NamedItem { id, item, name },
         });
         let registers = registers.collect();
-        let objects = addressable(located).zip(names).map(|((position, group), name)| {
-            let has_entries = has_entries(group);
-            let entries = if has_entries { entry_names(group) } else { vec![name.clone()] };
+        let objects: Vec<((u32, &Group), String)> = addressable(located).zip(names).collect();
+        let mut accessors = accessors(&objects).into_iter();
+        let objects = objects.into_iter().map(|((position, group), name)| {
+            let accessors = if group.has_entries() { accessors.next() } else { None };
+            let entries = if group.has_entries() { entry_names(group) } else { vec![name.clone()] };
             let entries = group.items_at(position).zip(entries).map(|((id, item), name)| NamedItem { id, item, name });
-            NamedObject { group, position, has_entries, entries: entries.collect(), accessors: String::new(), name }
+            NamedObject { group, position, entries: entries.collect(), accessors, name }
         });
-        let mut objects: Vec<NamedObject<'_>> = objects.collect();
-        name_accessors(&mut objects);
-        HandleNames { registers, objects }
+        HandleNames { registers, objects: objects.collect() }
     }
 
     /// Returns whether the device or module has no handles.
@@ -105,7 +110,7 @@ impl<'a> HandleNames<'a> {
         }
         let at = self.objects.binary_search_by_key(&id.group, |object| object.position).ok()?;
         let object = &self.objects[at];
-        Some((Some(object).filter(|object| object.has_entries), object.entries.get(id.item as usize)?))
+        Some((Some(object).filter(|object| object.has_entries()), object.entries.get(id.item as usize)?))
     }
 }
 
@@ -115,8 +120,7 @@ fn unique(located: &Located<'_>) -> Vec<String> {
         located.registers.iter().map(|register| ItemAddresses::of(located, register.item).suffix()).collect();
     let registers = located.registers.iter().zip(suffixes);
     let registers = registers.map(|(register, suffix)| NameRequest::new(&register.item.name, "register", suffix));
-    let objects = addressable(located)
-        .map(|(_, group)| NameRequest::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0))));
+    let objects = addressable(located).map(|(_, group)| of_object(group, &group.name));
     let name_requests: Vec<NameRequest<'_>> = registers.chain(objects).collect();
     let has_messages = located.device.is_some_and(|device| !device.messages.is_empty());
     let with_messages = RESERVED_WITH_MESSAGES.into_iter().filter(|_| has_messages);
@@ -124,18 +128,18 @@ fn unique(located: &Located<'_>) -> Vec<String> {
     names::unique(&name_requests, &reserved, Case::Snake)
 }
 
-/// Names the types with the accessors of entries. Two objects can need the same name, because names that differ in
-/// their underscores can be equal in camel case.
-fn name_accessors(objects: &mut [NamedObject<'_>]) {
-    let objects: Vec<&mut NamedObject<'_>> = objects.iter_mut().filter(|object| object.has_entries).collect();
-    let name_requests: Vec<NameRequest<'_>> = objects
-        .iter()
-        .map(|object| NameRequest::new(&object.name, "object", format!("{:04X}", object.group.index().unwrap_or(0))))
-        .collect();
+/// Returns the request for a name of an object, which is made from `name`.
+fn of_object<'n>(group: &Group, name: &'n str) -> NameRequest<'n> {
+    NameRequest::new(name, "object", format!("{:04X}", group.index().unwrap_or(0)))
+}
+
+/// Returns the name of the type with the accessors for each object that has entries. `objects` contains the names of the
+/// objects. These names are unique, but two of them can be equal in camel case.
+fn accessors(objects: &[((u32, &Group), String)]) -> Vec<String> {
+    let objects = objects.iter().filter(|((_, group), _)| group.has_entries());
+    let name_requests: Vec<NameRequest<'_>> = objects.map(|((_, group), name)| of_object(group, name)).collect();
     let names = names::unique(&name_requests, &[], Case::Pascal);
-    for (object, name) in objects.into_iter().zip(names) {
-        object.accessors = format!("{name}Accessors");
-    }
+    names.into_iter().map(|name| format!("{name}Accessors")).collect()
 }
 
 /// Returns whether a name has letters, so that a constant with this name differs from a type or method.

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 
 use super::handles::HandleNames;
-use crate::backend::rust::reachable::has_entries;
 use crate::backend::rust::scope::{ObjectBus, Scope};
 use crate::collections::{HashMap, HashSet};
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind};
@@ -75,7 +74,7 @@ pub(in crate::backend::rust) fn title(scope: &Scope<'_>, entry: &PdoEntry) -> St
         return entry.name.to_string();
     }
     let Some(group) = scope.object(entry.index) else { return entry.name.to_string() };
-    if !has_entries(group) {
+    if !group.has_entries() {
         return group.name.to_string();
     }
     // If the file describes the entries of an object in compact form, the names of the entries already start with the

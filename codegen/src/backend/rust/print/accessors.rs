@@ -155,13 +155,13 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
     let function = call!(seq!["pub fn ", name], "&mut self");
     let aliases: Vec<String> = object.aliases.iter().map(|alias| literal::string(alias)).collect();
     let alias = (!aliases.is_empty()).then(|| format!("#[doc(alias({}))]", aliases.join(", ")));
-    if object.has_entries {
+    if let Some(accessors) = &object.accessors {
         code.doc(&object.heading);
         code.doc(&format!("The constants for the object's entries are in {}.", object.constants));
         code.lines(&alias);
-        let result = generic!(seq!["objects::", object.accessors], "'_", "C");
+        let result = generic!(seq!["objects::", accessors], "'_", "C");
         open!(code, function, " -> ", result, " {");
-        open!(code, "objects::", object.accessors, " {");
+        open!(code, "objects::", accessors, " {");
         line!(code, "client: &mut self.client,");
         code.close("}");
         code.close("}");

@@ -38,12 +38,12 @@ fn mappable(code: &mut Code, model: &Model) {
     code.use_runtime();
     let stop = Stop;
     for object in model.objects.iter().filter(|object| object.is_in_mappable()) {
-        if object.has_entries {
+        if object.has_entries() {
             open!(code, "pub mod ", object.name, " {");
             line!(code, "use super::rt;");
         }
         for item in &object.items {
-            let name = if object.has_entries { item.mappable_name() } else { object.name.clone() };
+            let name = if object.has_entries() { item.mappable_name() } else { object.name.clone() };
             match &item.mappable {
                 Some(arguments) => {
                     line!(code, "pub type ", name, " = ", stop, list("rt::Mappable<", arguments, ">"), ";")
@@ -51,7 +51,7 @@ fn mappable(code: &mut Code, model: &Model) {
                 None => line!(code, "pub type ", name, " = rt::pdo::NotMappable;"),
             }
         }
-        if object.has_entries {
+        if object.has_entries() {
             code.close("}");
         }
     }

@@ -16,7 +16,7 @@ pub(super) fn write(code: &mut Code, model: &mut Model) {
     }
     let heading = format!("A handle for every {}.", model.handles[0]);
     let mut objects = std::mem::take(&mut model.objects);
-    if objects.iter().any(|object| object.has_entries && !object.is_reexported) {
+    if objects.iter().any(|object| object.has_entries() && !object.is_reexported) {
         line!(code, "#[allow(non_camel_case_types)]");
     }
     section::write(code, model, Section::Objects, &heading, Some(true), |code| {
@@ -105,30 +105,30 @@ fn handle_types(code: &mut Code, model: &Model) {
 /// The type is named like a module would be. It is not a module, because `rustc` evaluates each constant of a module
 /// whenever it checks the crate, but evaluates a constant of a type only where it is used.
 pub(in crate::backend::rust) fn object(code: &mut Code, model: &Model, object: &ObjectModel) {
-    if !object.has_entries {
+    let Some(name) = &object.accessors else {
         return object.items.iter().for_each(|item| handle(code, item));
-    }
+    };
     code.docs(&object.docs);
     line!(code, "pub enum ", object.name, " {}");
     open!(code, "impl ", object.name, " {");
     object.items.iter().for_each(|item| handle(code, item));
     code.close("}");
     if model.has_accessors {
-        accessors(code, model, object);
+        accessors(code, model, object, name);
     }
 }
 
 /// Writes the type with the accessors of an object's entries.
-fn accessors(code: &mut Code, model: &Model, object: &ObjectModel) {
+fn accessors(code: &mut Code, model: &Model, object: &ObjectModel, name: &str) {
     code.doc(&format!("Accessors for the entries of the object. {}", object.heading));
-    open!(code, "pub struct ", object.accessors, "<'c, C> {");
+    open!(code, "pub struct ", name, "<'c, C> {");
     // Methods of the device create the accessors, so the field must be visible in the device's module. If the file has
     // several devices, methods of any device may create the accessors.
     let users = if model.is_one_of_several { "in super::super" } else { "super" };
     line!(code, "pub(", users, ") client: &'c mut C,");
     code.close("}");
     code.lines(&object.method_allow);
-    open!(code, "impl<C> ", object.accessors, "<'_, C> {");
+    open!(code, "impl<C> ", name, "<'_, C> {");
     for item in &object.items {
         code.docs(&item.method_docs);
         let result = access("", item.access, &item.arguments);
