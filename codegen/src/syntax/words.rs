@@ -29,3 +29,23 @@ pub(super) fn less(word: u64, byte: u8) -> u64 {
 pub(super) fn first(marks: u64) -> usize {
     marks.trailing_zeros() as usize / 8
 }
+
+/// Returns the position of the first byte that `marks` marks in a word, or the length of `text`. `marks` returns a mask as
+/// [`equal`] does, and must mark line feeds.
+#[inline(always)]
+pub(super) fn find(text: &[u8], marks: impl Fn(u64) -> u64) -> usize {
+    let mut at = 0;
+    let mut words = text.chunks_exact(8);
+    for eight in words.by_ref() {
+        let found = marks(word(eight));
+        if found != 0 {
+            return at + first(found);
+        }
+        at += 8;
+    }
+    // The line feeds after the rest of the text mark its end.
+    let mut last = [b'\n'; 8];
+    let rest = words.remainder();
+    last[..rest.len()].copy_from_slice(rest);
+    at + first(marks(word(&last)))
+}

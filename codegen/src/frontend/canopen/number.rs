@@ -104,20 +104,23 @@ pub fn plain(text: &str) -> Option<i64> {
     };
     match text.as_bytes() {
         b"0" => Some(0),
-        [b'0', b'x' | b'X', digits @ ..] if (1..=15).contains(&digits.len()) => {
-            let add = |(value, all): (i64, u8), &digit: &u8| {
-                let nibble = NIBBLES[usize::from(digit)];
-                (value << 4 | i64::from(nibble), all | nibble)
-            };
-            let (value, all) = digits.iter().fold((0, 0), add);
-            (all < 16).then_some(value)
-        }
+        [b'0', b'x' | b'X', digits @ ..] if (1..=15).contains(&digits.len()) => hexadecimal(digits),
         digits @ [b'1'..=b'9', ..] if digits.len() <= 15 => decimal(digits),
         [b'-', digits @ ..] if digits.len() <= 15 && matches!(digits, [b'1'..=b'9', ..]) => {
             decimal(digits).map(|value| -value)
         }
         _ => None,
     }
+}
+
+/// Returns the value of at most 15 hexadecimal digits, or `None` for any other text.
+#[inline]
+pub fn hexadecimal(digits: &[u8]) -> Option<i64> {
+    let (value, all) = digits.iter().fold((0, 0), |(value, all), &digit| {
+        let nibble = NIBBLES[usize::from(digit)];
+        (value << 4 | i64::from(nibble), all | nibble)
+    });
+    (all < 16).then_some(value)
 }
 
 /// Returns whether a plain number is hexadecimal.

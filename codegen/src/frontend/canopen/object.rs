@@ -1,5 +1,7 @@
 //! Facts about an object that EDS and XDD files have in common: object type, data type, number of sub-indices.
 
+use std::fmt::Display;
+
 use super::deftype::defined_type;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Access, Fact, FactOrigin, Group, Item, ObjectCode, Rule, Shape, Type, TypeDef};
@@ -121,7 +123,7 @@ pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagno
 pub fn sub_number(
     group: &Group,
     announced: i128,
-    text: &str,
+    text: impl Display,
     span: Span,
     terms: &Terms,
     diagnostics: &mut Diagnostics,

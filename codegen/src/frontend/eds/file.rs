@@ -1,5 +1,6 @@
 //! Reads a file section by section.
 
+use super::keywords::{Key, KEYS};
 use super::object::ObjectSections;
 use super::reader::Reader;
 use super::sections::{classify, Refinement, SectionKind};
@@ -31,6 +32,7 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
         copies_exceeded: false,
         comments: Extensions::new(),
         hex_flags: None,
+        next_keys: [Key::ParameterName; KEYS + 1],
     };
     let sorted = Sorted::new(&mut reader);
     if sorted.is_empty() {

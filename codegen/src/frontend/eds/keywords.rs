@@ -4,7 +4,7 @@ use super::reader::Reader;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Extensions;
 use crate::source::Origin;
-use crate::syntax::ini::{Entry, Section};
+use crate::syntax::ini::{Entries, Entry, Section};
 use crate::text::edit_distance;
 
 /// Keyword of an object. The discriminant is the position of the keyword's entry in [`Raw`].
@@ -30,7 +30,7 @@ pub(super) enum Key {
 }
 
 /// Number of keywords in [`Key`].
-const KEYS: usize = 17;
+pub(super) const KEYS: usize = 17;
 
 /// All keywords with their names, in the order of [`Key`].
 const NAMES: [(&str, Key); KEYS] = [
@@ -55,9 +55,8 @@ const NAMES: [(&str, Key); KEYS] = [
 
 /// Returns the keyword that is spelled `key`, ignoring case. The length and the first letter of `key` leave at most two
 /// candidate keywords.
-fn keyword(key: &str) -> Option<Key> {
-    let bytes = key.as_bytes();
-    let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {
+fn keyword(key: &[u8]) -> Option<Key> {
+    let (name, keyword) = match (key.len(), key.first()? | 0x20) {
         (8, b'd') => ("DataType", Key::DataType),
         (8, b'l') => ("LowLimit", Key::LowLimit),
         (8, b'o') => ("ObjFlags", Key::ObjFlags),
@@ -70,7 +69,7 @@ fn keyword(key: &str) -> Option<Key> {
         (10, b'u') => ("UploadFile", Key::UploadFile),
         (11, b's') => ("SRDOMapping", Key::SrdoMapping),
         (12, b'i') => ("InvertedSRAD", Key::InvertedSrad),
-        (12, b'd') if bytes[1] | 0x20 == b'e' => ("DefaultValue", Key::DefaultValue),
+        (12, b'd') if key[1] | 0x20 == b'e' => ("DefaultValue", Key::DefaultValue),
         (12, b'd') => ("DownloadFile", Key::DownloadFile),
         (13, b'p') => ("ParameterName", Key::ParameterName),
         (13, b'c') => ("CompactSubObj", Key::CompactSubObj),
@@ -78,7 +77,8 @@ fn keyword(key: &str) -> Option<Key> {
         _ => return None,
     };
     // The names have 8 to 14 letters. Comparing the first and the last eight is faster than comparing texts of any length.
-    let ends = |name: &str| (name.as_bytes().first_chunk::<8>().copied(), name.as_bytes().last_chunk::<8>().copied());
+    let ends = |name: &[u8]| (name.first_chunk::<8>().copied(), name.last_chunk::<8>().copied());
+    let name = name.as_bytes();
     (ends(name) == ends(key) || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
@@ -132,11 +132,12 @@ impl Reader<'_, '_> {
         raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
         let mut unknown = Vec::new();
         for section in sections {
-            for entry in self.doc.entries(section) {
-                let key = self.doc.key(&entry);
-                let field = match keyword(key) {
-                    Some(keyword) => &mut raw.fields[keyword as usize],
-                    None => match more.iter().position(|name| name.eq_ignore_ascii_case(key)) {
+            let mut entries = self.doc.entries(section);
+            let mut last = KEYS;
+            while let Some((key, entry)) = self.next_key(&mut entries, &mut last) {
+                let field = match key {
+                    Some(key) => &mut raw.fields[key as usize],
+                    None => match more.iter().position(|name| name.eq_ignore_ascii_case(self.doc.key(&entry))) {
                         Some(position) => &mut raw.more[position],
                         None => {
                             self.extension(&entry, &mut raw.extensions);
@@ -151,6 +152,24 @@ impl Reader<'_, '_> {
             }
         }
         unknown.iter().for_each(|entry| self.misspelled(entry, raw));
+    }
+
+    /// Returns the next entry and its keyword. `last` is the keyword of the last entry. Sections of a file normally have the same
+    /// keywords in the same order, so the keyword that last followed `last` is tried first.
+    #[inline(always)]
+    fn next_key(&mut self, entries: &mut Entries<'_>, last: &mut usize) -> Option<(Option<Key>, Entry)> {
+        let expected = self.next_keys[*last];
+        let (key, entry) = match entries.with_key(NAMES[expected as usize].0.as_bytes()) {
+            Some(entry) => (Some(expected), entry),
+            None => {
+                let entry = entries.next()?;
+                let key = keyword(self.doc.key_bytes(&entry));
+                self.next_keys[*last] = key.unwrap_or(expected);
+                (key, entry)
+            }
+        };
+        *last = key.map_or(*last, |key| key as usize);
+        Some((key, entry))
     }
 
     /// Reports an unknown key that differs in at most two letters from a keyword that the object lacks.
@@ -186,11 +205,14 @@ mod tests {
         for (position, (name, key)) in NAMES.iter().enumerate() {
             assert_eq!(*key as usize, position);
             for spelling in [name.to_string(), name.to_lowercase(), name.to_uppercase()] {
-                assert!(keyword(&spelling) == Some(*key), "{spelling}");
+                assert!(keyword(spelling.as_bytes()) == Some(*key), "{spelling}");
             }
-            assert!(keyword(&name[1..]).is_none() && keyword(&format!("{name}s")).is_none(), "{name}");
-            assert!(keyword(&format!("{}_", &name[..name.len() - 1])).is_none(), "{name}");
+            assert!(
+                keyword(&name.as_bytes()[1..]).is_none() && keyword(format!("{name}s").as_bytes()).is_none(),
+                "{name}"
+            );
+            assert!(keyword(format!("{}_", &name[..name.len() - 1]).as_bytes()).is_none(), "{name}");
         }
-        assert!(keyword("").is_none() && keyword("d\u{e9}faultvalu").is_none());
+        assert!(keyword(b"").is_none() && keyword("d\u{e9}faultvalu".as_bytes()).is_none());
     }
 }

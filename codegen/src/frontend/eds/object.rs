@@ -187,14 +187,14 @@ impl<'a> Reader<'a, '_> {
             let mut raw = Raw::new();
             self.assign(same, &[], &mut raw);
             let code = self.sub_code(&raw);
-            let mut item = Item::new(Binding::canopen(index, sub));
+            rest = &rest[count..];
+            group.items.push(Item::new(Binding::canopen(index, sub)));
+            let Some(item) = group.items.last_mut() else { continue };
             item.extensions = std::mem::take(&mut raw.extensions);
-            self.describe(&mut item, &raw, code);
+            self.describe(item, &raw, code);
             self.name(raw.get(Key::ParameterName), &mut item.name, &mut item.at.name);
             self.unused(&raw, &OF_MANY_VALUES, &mut item.extensions);
             in_order_of_file(&mut item.extensions);
-            group.items.push(item);
-            rest = &rest[count..];
         }
     }
 
@@ -428,7 +428,7 @@ impl<'a> Reader<'a, '_> {
                 );
             }
         } else {
-            object::sub_number(group, announced, &announced.to_string(), span, &TERMS, self.diagnostics);
+            object::sub_number(group, announced, announced, span, &TERMS, self.diagnostics);
         }
     }
 

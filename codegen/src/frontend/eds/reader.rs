@@ -1,5 +1,6 @@
 //! Reader of an EDS or DCF file, and functions that read single entries.
 
+use super::keywords::{Key, KEYS};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
 use crate::frontend::canopen::value::Converter;
@@ -33,6 +34,8 @@ pub(super) struct Reader<'a, 'd> {
     /// Span of the first flag that is a hexadecimal number, and the number of such flags. One diagnostic reports all
     /// hexadecimal flags, because a tool writes all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
+    /// For each keyword of an object, the keyword that followed it last; then the keyword that was last the first of its section.
+    pub next_keys: [Key; KEYS + 1],
 }
 
 /// Form of a value that is not free text. The form determines whether a comment may follow the value.

@@ -1,5 +1,7 @@
 //! Classifies sections by their names (CiA 306, "section names").
 
+use crate::frontend::canopen::number::hexadecimal;
+
 /// Kind of a section, which the name of the section determines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SectionKind {
@@ -79,6 +81,9 @@ impl SectionKind {
 
 /// Returns the kind of the section `name`, and whether the name conforms to the grammar.
 pub(super) fn classify(name: &str) -> (SectionKind, bool) {
+    if let Some(kind) = canonical(name.as_bytes()) {
+        return (kind, true);
+    }
     if let Some(found) = classify_object(name) {
         return found;
     }
@@ -89,6 +94,19 @@ pub(super) fn classify(name: &str) -> (SectionKind, bool) {
         return found;
     }
     (SectionKind::Unknown, true)
+}
+
+/// Returns the kind of a section of an object or sub-index whose name is spelled as most files spell it.
+fn canonical(name: &[u8]) -> Option<SectionKind> {
+    let (index, rest) = name.split_at_checked(4)?;
+    let index = hexadecimal(index)? as u16;
+    match rest {
+        [] => Some(SectionKind::Object(index)),
+        [b's', b'u', b'b', sub @ ..] if matches!(sub, [_] | [b'1'..=b'9' | b'A'..=b'F', _]) => {
+            Some(SectionKind::Sub(index, hexadecimal(sub)? as u8))
+        }
+        _ => None,
+    }
 }
 
 fn classify_object(name: &str) -> Option<(SectionKind, bool)> {

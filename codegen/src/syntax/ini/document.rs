@@ -1,14 +1,11 @@
-//! The lexer for EDS and DCF files.
-//!
-//! A [`Document`] holds the list of sections, the comments above the first section, and the violations of the grammar. All parts of
-//! the document are spans of the text. The lines of a section are split on request, without an allocation per line. Each violation
-//! of the grammar is recorded as an [`Oddity`]. A line with a violation is still read if its meaning is clear. The front end
-//! interprets the keys and values.
+//! The sections of a text, and their entries.
 
 use std::cell::{Cell, RefCell};
+use std::cmp::Reverse;
 
-use super::words;
+use super::lines::{line_end, line_ends, range, trim_end, trim_start, trimmed, Line, Lines, Range};
 use crate::source::{FileId, Span};
+use crate::syntax::words;
 
 /// A file: its sections, the comments above the first section, and the violations of the grammar.
 #[derive(Debug)]
@@ -21,8 +18,8 @@ pub struct Document<'a> {
     preamble: Vec<Entry>,
     /// Violations of the grammar found so far.
     oddities: RefCell<Vec<(Oddity, Span)>>,
-    /// For each section, true if its violations of the grammar were already recorded.
-    noted: Vec<Cell<bool>>,
+    /// For each section, true if all its lines were read, so that all its violations of the grammar are recorded.
+    is_read: Vec<Cell<bool>>,
 }
 
 /// A section header and the lines below it.
@@ -47,12 +44,13 @@ pub struct Entry {
     pub line: u32,
 }
 
-/// Bytes `start..end` of the text. The file number is left out to keep the lists small.
-type Range = (u32, u32);
-
 /// A violation of the grammar of CiA 306.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Oddity {
+    /// A line of more than 255 characters.
+    LongLine,
+    /// A header that does not start in the first column.
+    IndentedHeader,
     /// A line that is not a section header, entry or comment.
     Junk,
     /// An entry above the first section.
@@ -61,12 +59,8 @@ pub enum Oddity {
     UnclosedHeader,
     /// A header followed by text other than a comment.
     TextAfterHeader,
-    /// A header that does not start in the first column.
-    IndentedHeader,
     /// A line that starts with `#`.
     HashLine,
-    /// A line of more than 255 characters.
-    LongLine,
 }
 
 /// Maximum number of characters in a line (CiA 306).
@@ -84,10 +78,10 @@ impl<'a> Document<'a> {
             sections: Vec::new(),
             preamble: Vec::new(),
             oddities: RefCell::default(),
-            noted: Vec::new(),
+            is_read: Vec::new(),
         };
         document.headers();
-        document.noted = vec![Cell::new(false); document.sections.len()];
+        document.is_read = vec![Cell::new(false); document.sections.len()];
         document.preamble = document.above();
         document
     }
@@ -104,8 +98,8 @@ impl<'a> Document<'a> {
 
     /// Returns the entries and comments of a section.
     pub fn entries(&self, section: &Section) -> Entries<'_> {
-        let lines = Lines { at: section.body.0 as usize, end: section.body.1 as usize, line: section.line + 1 };
-        Entries { document: self, lines, comment: section.comment, number: Some(section.number), odd: Vec::new() }
+        let lines = self.lines(section.body.0 as usize, section.body.1 as usize, section.line + 1);
+        Entries { document: self, lines, comment: section.comment, section: section.number }
     }
 
     /// Returns the entries and comments of several sections.
@@ -126,10 +120,12 @@ impl<'a> Document<'a> {
 
     /// Returns all violations of the grammar, in the order of the file.
     pub fn oddities(&self) -> Vec<(Oddity, Span)> {
-        let left = self.sections.iter().zip(&self.noted).filter(|(_, noted)| !noted.get());
-        left.for_each(|(section, _)| self.entries(section).for_each(drop));
+        let unread = self.sections.iter().zip(&self.is_read).filter(|(_, is_read)| !is_read.get());
+        unread.for_each(|(section, _)| self.entries(section).for_each(drop));
         let mut all = self.oddities.borrow().clone();
-        all.sort_by_key(|(_, span)| span.start);
+        all.sort_by_key(|&(oddity, span)| (span.start, Reverse(span.end), oddity));
+        // A section that was left before its end was read twice.
+        all.dedup();
         all
     }
 
@@ -146,6 +142,11 @@ impl<'a> Document<'a> {
     /// Returns the key of an entry. For a comment, returns the comment mark (`;`, or `#` after a header).
     pub fn key(&self, entry: &Entry) -> &'a str {
         self.slice(entry.key)
+    }
+
+    /// Returns the bytes of [`key`](Self::key).
+    pub fn key_bytes(&self, entry: &Entry) -> &'a [u8] {
+        &self.text.as_bytes()[entry.key.0 as usize..entry.key.1 as usize]
     }
 
     /// Returns the trimmed value of an entry, or the text of a comment.
@@ -186,6 +187,16 @@ impl<'a> Document<'a> {
         Span::new(self.file, range.0, range.1)
     }
 
+    /// Returns the range from `start` to `end` without the spaces and tabs at both ends.
+    fn trimmed(&self, start: usize, end: usize) -> Range {
+        trimmed(start, &self.text.as_bytes()[start..end])
+    }
+
+    /// Returns the lines from `at`, the start of line number `line`, to `end`, the start of another line or the end of the text.
+    fn lines(&self, at: usize, end: usize, line: u32) -> Lines<'a> {
+        Lines { bytes: &self.text.as_bytes()[..self.end], at, end, line }
+    }
+
     /// Finds the section headers: all lines whose first character, except spaces and tabs, is `[`.
     fn headers(&mut self) {
         let bytes = &self.text.as_bytes()[..self.end];
@@ -201,13 +212,13 @@ impl<'a> Document<'a> {
             }
             line += line_ends(&bytes[counted..start], has_returns);
             counted = start;
-            let mut below = Lines { at: start, end: self.end, line };
-            let Some(Line { end, .. }) = below.next(bytes) else { break };
+            let end = start + words::find(&bytes[start..], line_end);
+            let below = end + if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
             if let Some(section) = self.sections.last_mut() {
                 section.body.1 = start as u32;
             }
-            self.header(start, bracket, end, line, below.at);
-            from = below.at.min(bytes.len());
+            self.header(start, bracket, end, line, below);
+            from = below.min(bytes.len());
         }
     }
 
@@ -215,36 +226,34 @@ impl<'a> Document<'a> {
     /// line.
     fn header(&mut self, start: usize, bracket: usize, end: usize, line: u32, body: usize) {
         let bytes = self.text.as_bytes();
-        let mut odd = Vec::new();
-        let (_, last) = trim(bytes, bracket, end);
+        let last = self.trimmed(bracket, end).1 as usize;
         if is_long(&self.text[start..end]) {
-            odd.push((Oddity::LongLine, start, end));
+            self.note(Oddity::LongLine, range(start, end));
         }
         if bracket > start {
-            odd.push((Oddity::IndentedHeader, bracket, last));
+            self.note(Oddity::IndentedHeader, range(bracket, last));
         }
         let mut comment = 0;
         let name = match memchr::memchr(b']', &bytes[bracket..last]) {
             Some(length) => {
                 let close = bracket + length;
-                let (rest, _) = trim(bytes, close + 1, last);
+                let rest = self.trimmed(close + 1, last).0 as usize;
                 if rest < last && matches!(bytes[rest], b';' | b'#') {
                     comment = rest;
                 } else if rest < last {
-                    odd.push((Oddity::TextAfterHeader, rest, last));
+                    self.note(Oddity::TextAfterHeader, range(rest, last));
                 }
-                trim(bytes, bracket + 1, close)
+                self.trimmed(bracket + 1, close)
             }
             None => {
-                odd.push((Oddity::UnclosedHeader, bracket, last));
-                trim(bytes, bracket + 1, last)
+                self.note(Oddity::UnclosedHeader, range(bracket, last));
+                self.trimmed(bracket + 1, last)
             }
         };
-        self.note(&odd);
         self.sections.push(Section {
-            name: (name.0 as u32, name.1 as u32),
+            name,
             line,
-            body: (body as u32, self.end as u32),
+            body: range(body, self.end),
             comment: comment as u32,
             number: self.sections.len() as u32,
         });
@@ -257,94 +266,69 @@ impl<'a> Document<'a> {
             let blanks = self.text.as_bytes()[..bracket].iter().rev();
             bracket - blanks.take_while(|byte| matches!(byte, b' ' | b'\t')).count()
         });
-        let lines = Lines { at: 0, end, line: 1 };
+        let lines = self.lines(0, end, 1);
         let (entries, rest): (Vec<_>, Vec<_>) =
-            Entries { document: self, lines, comment: 0, number: None, odd: Vec::new() }
-                .partition(|entry| self.is_comment(entry));
-        let outside = |entry: &Entry| (Oddity::EntryOutsideSection, entry.key.0 as usize, entry.value.1 as usize);
-        self.note(&rest.iter().map(outside).collect::<Vec<_>>());
+            Entries { document: self, lines, comment: 0, section: u32::MAX }.partition(|entry| self.is_comment(entry));
+        for entry in rest {
+            self.note(Oddity::EntryOutsideSection, (entry.key.0, entry.value.1));
+        }
         entries
     }
 
-    fn note(&self, odd: &[(Oddity, usize, usize)]) {
-        let span = |&(oddity, start, end): &(Oddity, usize, usize)| (oddity, self.span((start as u32, end as u32)));
-        self.oddities.borrow_mut().extend(odd.iter().map(span));
+    #[cold]
+    fn note(&self, oddity: Oddity, at: Range) {
+        self.oddities.borrow_mut().push((oddity, self.span(at)));
     }
-}
 
-/// Iterator over the lines of a part of the text.
-#[derive(Clone, Debug)]
-struct Lines {
-    at: usize,
-    end: usize,
-    line: u32,
-}
-
-/// A line without its line end.
-struct Line {
-    start: usize,
-    end: usize,
-    /// Offset of the first `=` in the line.
-    equals: Option<usize>,
-    number: u32,
-}
-
-impl Lines {
-    #[inline]
-    fn next(&mut self, bytes: &[u8]) -> Option<Line> {
-        if self.at >= self.end {
-            return None;
-        }
-        let (start, number) = (self.at, self.line);
-        let (end, equals) = scan(&bytes[..self.end], start);
-        let crlf = bytes[end..].starts_with(b"\r\n");
-        self.at = end + 1 + usize::from(crlf);
-        self.line += 1;
-        Some(Line { start, end, equals, number })
-    }
-}
-
-/// Returns the end of the line that starts at `start`, and the offset of its first `=`.
-#[inline]
-fn scan(bytes: &[u8], start: usize) -> (usize, Option<usize>) {
-    let (mut at, mut equals) = (start, None);
-    let mut chunks = bytes[start..].chunks_exact(8);
-    for chunk in chunks.by_ref() {
-        let word = words::word(chunk);
-        if equals.is_none() {
-            let signs = words::equal(word, b'=');
-            equals = (signs != 0).then(|| at + words::first(signs));
-        }
-        // Most words contain no control character, so this comparison usually shows that the word contains no line end.
-        if words::less(word, b' ') != 0 {
-            let ends = words::equal(word, b'\n') | words::equal(word, b'\r');
-            if ends != 0 {
-                let end = at + words::first(ends);
-                return (end, equals.filter(|&equals| equals < end));
-            }
-        }
-        at += 8;
-    }
-    for (at, byte) in (at..).zip(chunks.remainder()) {
-        match byte {
-            b'\n' | b'\r' => return (at, equals),
-            b'=' => equals = equals.or(Some(at)),
-            _ => {}
+    /// Records a violation in the section `section`, unless all violations of the section are already recorded.
+    #[cold]
+    fn note_in(&self, section: u32, oddity: Oddity, at: Range) {
+        if self.is_read.get(section as usize).is_none_or(|is_read| !is_read.get()) {
+            self.note(oddity, at);
         }
     }
-    (bytes.len(), equals)
+
+    #[cold]
+    fn long_line(&self, section: u32, line: Line) {
+        if is_long(&self.text[line.start..line.end()]) {
+            self.note_in(section, Oddity::LongLine, range(line.start, line.end()));
+        }
+    }
+
+    /// Returns the mark and the text of a comment line. Records any other line as a violation.
+    #[inline(never)]
+    fn line_without_key(&self, section: u32, line: Line) -> Option<(Range, Range)> {
+        let found = self.trimmed(line.start, line.end());
+        match self.slice(found).as_bytes().first()? {
+            b';' => return self.comment(found.0 as usize, found.1 as usize),
+            b'#' => self.note_in(section, Oddity::HashLine, found),
+            _ => self.note_in(section, Oddity::Junk, found),
+        }
+        None
+    }
+
+    /// Returns the mark and the text of a comment that starts at `start`, or `None` if the text is empty.
+    fn comment(&self, start: usize, end: usize) -> Option<(Range, Range)> {
+        let text = self.trimmed(start + 1, end);
+        (text.0 < text.1).then(|| (range(start, start + 1), text))
+    }
+
+    /// Returns the mark and the text of a comment after a section header, or `None` if the text is empty.
+    #[cold]
+    fn comment_after_header(&self, start: usize) -> Option<(Range, Range)> {
+        let rest = &self.text.as_bytes()[start..self.end];
+        self.comment(start, start + memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len()))
+    }
 }
 
 /// Iterator over the entries and comments of a section, in the order of the file.
 #[derive(Clone, Debug)]
 pub struct Entries<'d> {
     document: &'d Document<'d>,
-    lines: Lines,
+    lines: Lines<'d>,
     comment: u32,
-    number: Option<u32>,
-    /// Violations of the grammar in the section. The violations are added to the document after the last line has been read, so
-    /// that each violation is recorded only once.
-    odd: Vec<(Oddity, usize, usize)>,
+    /// Number of the section; `u32::MAX` for the lines above the first section.
+    section: u32,
 }
 
 impl Iterator for Entries<'_> {
@@ -353,111 +337,70 @@ impl Iterator for Entries<'_> {
     // Reading a line is so short that copying the entry from a call through memory is a large part of the time.
     #[inline(always)]
     fn next(&mut self) -> Option<Entry> {
-        let bytes = &self.document.text.as_bytes()[..self.document.end];
         if self.comment > 0 {
-            if let Some(comment) = self.comment_after_header(bytes) {
-                return Some(comment);
+            let start = std::mem::take(&mut self.comment) as usize;
+            if let Some((key, value)) = self.document.comment_after_header(start) {
+                return Some(Entry { key, value, line: self.lines.line - 1 });
             }
         }
-        while let Some(line) = self.lines.next(bytes) {
-            if let Some(entry) = self.line(bytes, &line) {
+        while let Some(line) = self.lines.next() {
+            if let Some(entry) = self.entry(line) {
                 return Some(entry);
             }
         }
-        self.finish();
+        if let Some(is_read) = self.document.is_read.get(self.section as usize) {
+            is_read.set(true);
+        }
         None
     }
 }
 
 impl Entries<'_> {
-    /// Returns the comment after the header, or `None` if the comment is empty.
-    #[cold]
-    fn comment_after_header(&mut self, bytes: &[u8]) -> Option<Entry> {
-        let first = std::mem::take(&mut self.comment) as usize;
-        let end = memchr::memchr2(b'\n', b'\r', &bytes[first..]).map_or(bytes.len(), |length| first + length);
-        let (first, last) = trim(bytes, first, end);
-        comment(bytes, first, last, self.lines.line - 1)
+    /// Returns the entry of the next line if the line starts with `key` and `=`. `key` has at least eight letters. This method is
+    /// faster than [`next`](Iterator::next) if the caller can predict the key.
+    #[inline(always)]
+    pub fn with_key(&mut self, key: &[u8]) -> Option<Entry> {
+        let Lines { bytes, at: start, end, line } = self.lines;
+        let (found, rest) = bytes.get(start..)?.split_at_checked(key.len())?;
+        // For short texts, this comparison is faster than that of slices.
+        let ends = |text: &[u8]| (text.first_chunk::<8>().copied(), text.last_chunk::<8>().copied());
+        let [b'=', rest @ ..] = rest else { return None };
+        if ends(found) != ends(key) || self.comment > 0 || start >= end {
+            return None;
+        }
+        let (value, below) = rest.split_at_checked(words::find(rest, line_end))?;
+        let equals = start + key.len();
+        let at = equals + 1 + value.len();
+        if at - start > MAX_LINE {
+            return None;
+        }
+        self.lines.at = at + if below.starts_with(b"\r\n") { 2 } else { 1 };
+        self.lines.line = line + 1;
+        Some(Entry { key: range(start, equals), value: trimmed(equals + 1, value), line })
     }
 
     #[inline(always)]
-    fn line(&mut self, bytes: &[u8], line: &Line) -> Option<Entry> {
-        let &Line { start, end, equals, number } = line;
-        let (first, last) = trim(bytes, start, end);
-        if first == last {
-            return None;
+    fn entry(&self, line: Line) -> Option<Entry> {
+        if line.end() - line.start > MAX_LINE {
+            self.document.long_line(self.section, line);
         }
-        if end - start > MAX_LINE && is_long(&self.document.text[start..end]) {
-            self.odd.push((Oddity::LongLine, start, end));
-        }
-        match bytes[first] {
-            b';' => return comment(bytes, first, last, number),
-            b'#' => self.odd.push((Oddity::HashLine, first, last)),
-            _ => match equals.filter(|&equals| equals > first) {
-                Some(equals) => {
-                    let key_end = end_of(bytes, first, equals);
-                    return Some(entry((first, key_end), (start_of(bytes, equals + 1, last), last), number));
-                }
-                None => self.odd.push((Oddity::Junk, first, last)),
-            },
-        }
-        None
+        let key = trim_start(line.key);
+        // An entry that a function returns is copied through memory.
+        let (key, value) = match (key, line.value) {
+            ([], None) => return None,
+            ([], _) | ([b';' | b'#', ..], _) | (_, None) => self.document.line_without_key(self.section, line)?,
+            (_, Some(value)) => {
+                let equals = line.start + line.key.len();
+                let start = equals - key.len();
+                (range(start, start + trim_end(key).len()), trimmed(equals + 1, value))
+            }
+        };
+        Some(Entry { key, value, line: line.number })
     }
-
-    fn finish(&mut self) {
-        let noted = self.number.and_then(|number| self.document.noted.get(number as usize));
-        let is_first = noted.is_none_or(|noted| !noted.replace(true));
-        if is_first && !self.odd.is_empty() {
-            self.document.note(&self.odd);
-        }
-        self.odd.clear();
-    }
-}
-
-fn comment(bytes: &[u8], first: usize, last: usize, line: u32) -> Option<Entry> {
-    let text = trim(bytes, first + 1, last);
-    (text.0 < text.1).then(|| entry((first, first + 1), text, line))
-}
-
-fn entry(key: (usize, usize), value: (usize, usize), line: u32) -> Entry {
-    Entry { key: (key.0 as u32, key.1 as u32), value: (value.0 as u32, value.1 as u32), line }
 }
 
 fn is_long(line: &str) -> bool {
     line.len() > MAX_LINE && line.chars().count() > MAX_LINE
-}
-
-/// Counts the line ends in `bytes`: CR LF, LF and single CR. `has_returns` states whether the text contains any CR.
-fn line_ends(bytes: &[u8], has_returns: bool) -> u32 {
-    let feeds = || memchr::memchr_iter(b'\n', bytes);
-    if !has_returns {
-        return feeds().count() as u32;
-    }
-    let both = feeds().filter(|&at| bytes[..at].ends_with(b"\r")).count();
-    (feeds().count() + memchr::memchr_iter(b'\r', bytes).count() - both) as u32
-}
-
-/// Trims spaces and tabs from both ends of `start..end`.
-fn trim(bytes: &[u8], start: usize, end: usize) -> (usize, usize) {
-    let start = start_of(bytes, start, end);
-    (start, end_of(bytes, start, end))
-}
-
-/// Returns the offset of the first byte in `start..end` that is not a space or tab.
-#[inline]
-fn start_of(bytes: &[u8], mut start: usize, end: usize) -> usize {
-    while start < end && matches!(bytes[start], b' ' | b'\t') {
-        start += 1;
-    }
-    start
-}
-
-/// Returns the offset after the last byte in `start..end` that is not a space or tab.
-#[inline]
-fn end_of(bytes: &[u8], start: usize, mut end: usize) -> usize {
-    while start < end && matches!(bytes[end - 1], b' ' | b'\t') {
-        end -= 1;
-    }
-    end
 }
 
 #[cfg(test)]
@@ -534,6 +477,47 @@ mod tests {
         );
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(254))), [Oddity::LongLine]);
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(253))), []);
+    }
+
+    #[test]
+    fn violations_of_a_section_that_is_read_twice_are_recorded_once() {
+        let text = format!("[A]\njunk\na=1\nx={}\n#b", "é".repeat(254));
+        let document = Document::parse(&text, FileId(0));
+        let section = &document.sections()[0];
+        assert!(document.entries(section).next().is_some());
+        assert_eq!([document.entries(section).count(), document.entries(section).count()], [2, 2]);
+        let oddities: Vec<Oddity> = document.oddities().iter().map(|&(oddity, _)| oddity).collect();
+        assert_eq!(oddities, [Oddity::Junk, Oddity::LongLine, Oddity::HashLine]);
+    }
+
+    /// An entry with a predicted key is the entry that the iterator finds, or `None` if the next line has another form.
+    #[test]
+    fn a_predicted_key_gives_the_same_entry() {
+        for line in ["DataType=5", "DataType= 0x7 \t", "DataType=", "DataType=a=b;c"] {
+            for end in ["", "\n", "\r\n", "\r", "\n\n[B]\nDataType=1"] {
+                let text = format!("[A]\n{line}{end}");
+                let document = Document::parse(&text, FileId(0));
+                let section = &document.sections()[0];
+                let mut predicted = document.entries(section);
+                let (found, expected) = (predicted.with_key(b"DataType"), document.entries(section).next());
+                assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{text:?}");
+                assert!(predicted.with_key(b"DataType").is_none() && predicted.next().is_none(), "{text:?}");
+            }
+        }
+        let long = format!("[A]\nDataType={}", "5".repeat(300));
+        let others = [
+            "[A];c\nDataType=5",
+            "[A]\n DataType=5",
+            "[A]\nDataType =5",
+            "[A]\ndatatype=5",
+            "[A]\nDataTypes=5",
+            "[A]",
+            &long,
+        ];
+        for text in others {
+            let document = Document::parse(text, FileId(0));
+            assert!(document.entries(&document.sections()[0]).with_key(b"DataType").is_none(), "{text:?}");
+        }
     }
 
     #[test]
