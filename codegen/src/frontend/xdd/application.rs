@@ -2,16 +2,19 @@
 //!
 //! Values are converted when an object refers to their parameter, because the object may declare the data type.
 
+use std::borrow::Cow;
+
 use super::data_type::{RawType, TypeRef};
+use super::fields::Fields;
 use super::reader::{Lang, Reader, Texts};
 use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Names};
-use crate::ir::{Extension, Extensions};
+use crate::ir::{self, CompactString, Documentation, Extension, Extensions};
 use crate::text::brief;
 
 /// Positions of elements by uniqueID.
-pub(super) type Ids = HashMap<String, usize>;
+pub(super) type Ids<'a> = HashMap<Cow<'a, str>, usize>;
 
 #[derive(Default)]
 pub(super) struct Application<'a> {
@@ -20,35 +23,47 @@ pub(super) struct Application<'a> {
     pub templates: Vec<Parameter<'a>>,
     pub allowed_templates: Vec<Allowed<'a>>,
     pub types: Vec<RawType<'a>>,
-    pub parameter_ids: Ids,
-    pub template_ids: Ids,
-    pub allowed_ids: Ids,
-    pub type_ids: Ids,
+    pub parameter_ids: Ids<'a>,
+    pub template_ids: Ids<'a>,
+    pub allowed_ids: Ids<'a>,
+    pub type_ids: Ids<'a>,
+}
+
+/// Attributes of a parameter, and child elements that contain one value. The discriminant is the position of the
+/// attribute in [`Parameter::fields`].
+#[derive(Clone, Copy)]
+pub(super) enum ParameterKey {
+    Template,
+    Access,
+    Support,
+    Persistent,
+    Offset,
+    Multiplier,
+    Default,
+    Actual,
 }
 
 /// Contents of a `parameter`, `parameterTemplate` or `varDeclaration` element.
 #[derive(Default)]
 pub(super) struct Parameter<'a> {
-    pub template: Given<'a>,
-    pub access: Given<'a>,
-    /// True for a `varDeclaration` element. A variable has no default access rights.
-    pub is_variable: bool,
-    pub support: Given<'a>,
-    pub persistent: Given<'a>,
-    pub offset: Given<'a>,
-    pub multiplier: Given<'a>,
+    pub fields: Fields<'a>,
     pub texts: Texts<'a>,
     pub denotation: Option<Box<Texts<'a>>>,
     pub ty: Option<TypeRef<'a>>,
-    pub default: Given<'a>,
-    pub actual: Given<'a>,
     pub allowed: Option<Box<Allowed<'a>>>,
     pub unit: Option<Box<Unit<'a>>>,
     pub extensions: Extensions,
     /// Length of the parameter's element in bytes, which counts toward the limit for copies.
     pub weight: usize,
-    /// Positions of the structure and the field, if the parameter is a variable of a structure.
+    /// Positions of the structure and the field, if the parameter is a variable of a structure (`varDeclaration`).
     pub field: Option<(usize, usize)>,
+}
+
+impl<'a> Parameter<'a> {
+    /// Returns the attribute or value `key`, or `None` if it is missing.
+    fn get(&self, key: ParameterKey) -> Option<&Given<'a>> {
+        self.fields.get(key as u8)
+    }
 }
 
 /// Contents of an `allowedValues` or `allowedValuesTemplate` element.
@@ -101,13 +116,27 @@ impl<'p, 'a> View<'p, 'a> {
         self.parameter.and_then(&fact).or_else(|| self.template.and_then(&fact))
     }
 
-    /// Returns the labels and descriptions of the parameter, or those of the template if the parameter lacks them.
-    pub fn texts(&self) -> Texts<'a> {
-        let has = |names: &&'p Names<'a, Lang>| !names.is_empty();
-        let labels = self.find(|parameter| Some(&parameter.texts.labels).filter(has));
-        let descriptions = self.find(|parameter| Some(&parameter.texts.descriptions).filter(has));
-        let names = |names: Option<&Names<'a, Lang>>| names.map_or_else(Names::default, Names::clone);
-        Texts { labels: names(labels), descriptions: names(descriptions) }
+    /// Returns an attribute or value of the parameter, or of the template if the parameter does not declare it.
+    pub fn get(&self, key: ParameterKey) -> Option<&'p Given<'a>> {
+        self.find(|parameter| parameter.get(key))
+    }
+
+    fn labels(&self) -> Option<&'p Names<'a, Lang>> {
+        self.find(|parameter| Some(&parameter.texts.labels).filter(|labels| !labels.is_empty()))
+    }
+
+    /// Returns the label that serves as the name, or an empty string if there is no label.
+    pub fn name(&self) -> CompactString {
+        self.labels().map(Names::name).unwrap_or_default()
+    }
+
+    /// Returns all labels that differ from `name`.
+    pub fn labels_except(&self, name: &str) -> ir::Texts {
+        self.labels().map(|labels| labels.except(name)).unwrap_or_default()
+    }
+
+    pub fn documentation(&self) -> Option<Box<Documentation>> {
+        self.find(|parameter| parameter.texts.documentation())
     }
 
     pub fn extensions(&self) -> impl Iterator<Item = &'p Extension> + use<'p, 'a> {
@@ -123,16 +152,14 @@ impl<'p, 'a> View<'p, 'a> {
 
 impl<'a> Application<'a> {
     /// Returns the parameter to which an object refers, with its template. Reports an unknown parameter or template.
-    pub fn view(&self, reader: &mut Reader<'a, '_>, given: &Given<'a>) -> View<'_, 'a> {
-        if given.is_missing() {
-            return View::NONE;
-        }
+    pub fn view(&self, reader: &mut Reader<'a, '_>, given: Option<&Given<'a>>) -> View<'_, 'a> {
+        let Some(given) = given else { return View::NONE };
         let Some(&position) = self.parameter_ids.get(given.text.as_ref()) else {
             dangling(reader, given, "parameter");
             return View::NONE;
         };
         let parameter = &self.parameters[position];
-        let template = parameter.template.non_empty().and_then(|given| {
+        let template = parameter.get(ParameterKey::Template).and_then(|given| {
             let template = self.template_ids.get(given.text.as_ref()).map(|&at| &self.templates[at]);
             if template.is_none() {
                 dangling(reader, given, "parameterTemplate");
@@ -165,7 +192,7 @@ pub(super) fn dangling(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &st
 
 /// Registers the position of an element by uniqueID. Reports a repeated uniqueID, which then identifies the first
 /// element.
-pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_>, position: usize) {
+pub(super) fn insert<'a>(reader: &mut Reader<'_, '_>, ids: &mut Ids<'a>, given: Given<'a>, position: usize) {
     if given.is_missing() {
         return;
     }
@@ -173,5 +200,5 @@ pub(super) fn insert(reader: &mut Reader<'_, '_>, ids: &mut Ids, given: Given<'_
         reader.bad(&given, "uniqueID, because it occurs twice", "references resolve to the first element");
         return;
     }
-    ids.insert(given.text.into_owned(), position);
+    ids.insert(given.text, position);
 }

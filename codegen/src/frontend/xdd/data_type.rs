@@ -86,6 +86,6 @@ fn basic(name: &str) -> Option<Type> {
 /// Returns an enumeration value whose name and documentation come from `texts`.
 pub(super) fn enum_value(value: i128, texts: &Texts<'_>) -> EnumValue {
     let name = texts.labels.name();
-    let (names, documentation) = (texts.labels.except(&name), texts.descriptions.documentation());
+    let (names, documentation) = (texts.labels.except(&name), texts.documentation());
     EnumValue { names, documentation, ..EnumValue::new(name, value) }
 }

@@ -81,7 +81,6 @@ fn structure<'a>(
             continue;
         }
         let (id, mut variable) = parameter::read(reader, &tag)?;
-        variable.is_variable = true;
         variable.field = Some((application.types.len(), variables.len()));
         insert(reader, &mut application.parameter_ids, id, application.parameters.len());
         variables.push(application.parameters.len());

@@ -63,6 +63,8 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
     device.name = device.identity.product_name.clone();
     device.canopen = Some(Box::new(canopen));
     device.extensions = reader.extensions_since(0);
+    // Shrinking reduces the peak memory use, which occurs while the objects are read.
+    application.parameters.shrink_to_fit();
     device.types = types::lower(reader, &mut application);
     objects::build(reader, &application, objects, &mut device)?;
     Ok(device)

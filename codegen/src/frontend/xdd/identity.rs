@@ -132,7 +132,7 @@ fn parse(given: &Given<'_>) -> Option<i128> {
 /// file.
 fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     let texts = reader.texts(parent)?;
-    let documentation = texts.descriptions.documentation().unwrap_or_default();
+    let documentation = texts.documentation().unwrap_or_default();
     device.header.description = documentation.text.into();
     let others = documentation.translations.iter().cloned().chain(texts.labels.all());
     reader.extensions.extend(others.map(|text| {

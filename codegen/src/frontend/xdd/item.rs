@@ -1,6 +1,6 @@
 //! Converts an object or sub-object, together with its parameter, to an item.
 
-use super::application::{Allowed, AllowedRange, View};
+use super::application::{Allowed, AllowedRange, ParameterKey, View};
 use super::data_type::enum_value;
 use super::number::integer;
 use super::objects::{Builder, Key, Raw};
@@ -45,7 +45,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             object::without_type(&mut item);
         }
         item.mappable = self.mappable(raw, item.access, &mut item);
-        let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.non_empty()));
+        let default = raw.get(Key::DefaultValue).or_else(|| view.get(ParameterKey::Default));
         item.default = self.typed(default, base, Role::Value);
         item.at.default = span_of(default);
         // Limits are redundant if the type is an enumeration of the allowed values.
@@ -122,17 +122,15 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             return object::access(&given.text, given.span, self.reader.diagnostics);
         }
         let of_parent = parent.filter(|_| !view.exists()).map(|(parent, _)| parent);
-        let given = view.find(|parameter| parameter.access.non_empty());
-        let given =
-            given.or_else(|| of_parent.and_then(|parent| parent.find(|parameter| parameter.access.non_empty())));
-        if let Some(given) = given {
+        let given = view.get(ParameterKey::Access);
+        if let Some(given) = given.or_else(|| of_parent?.get(ParameterKey::Access)) {
             item.at.access = given.span;
             return self.parameter_access(given);
         }
         item.at.access = raw.origin.span;
         item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
-        // The CiA 311 schema defines `read` as the default access of a parameter.
-        let is_read = view.parameter().is_some_and(|parameter| !parameter.is_variable);
+        // The CiA 311 schema defines `read` as the default access of a parameter, but no default access of a variable.
+        let is_read = view.parameter().is_some_and(|parameter| parameter.field.is_none());
         match code {
             ObjectCode::Domain if !is_read => return Access::ReadWrite,
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}
@@ -200,11 +198,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let Some(values) = allowed.values.iter().map(value).collect::<Option<Vec<_>>>() else { return ty };
         let id = TypeId(self.types.len() as u32);
         self.enumerations.insert(position, id);
-        self.types.push(TypeDef::new(
-            view.texts().labels.name(),
-            Shape::Enumeration { base: ty, values, closed: false },
-            ty.bits(),
-        ));
+        self.types.push(TypeDef::new(view.name(), Shape::Enumeration { base: ty, values, closed: false }, ty.bits()));
         Type::Named(id)
     }
 
@@ -259,7 +253,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// Adds the configured value and the denotation in an XDC file to an item.
     fn configured(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, ty: Type, item: &mut Item) {
-        let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.non_empty()));
+        let actual = raw.get(Key::ActualValue).or_else(|| view.get(ParameterKey::Actual));
         let denotation = match raw.get(Key::Denotation) {
             Some(given) => Some(CompactString::from(given.text.as_ref())),
             None => view.find(|parameter| parameter.denotation.as_deref()).map(|texts| texts.labels.name()),
@@ -281,8 +275,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// parameter × multiplier of the unit.
     fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
         let unit = view.find(|parameter| parameter.unit.as_deref());
-        let multiplier = view.find(|parameter| parameter.multiplier.non_empty());
-        let offset = view.find(|parameter| parameter.offset.non_empty());
+        let multiplier = view.get(ParameterKey::Multiplier);
+        let offset = view.get(ParameterKey::Offset);
         let of_unit = unit.and_then(|unit| unit.multiplier.non_empty());
         let step = allowed.and_then(|allowed| match allowed.ranges.as_slice() {
             [range] => range.step.non_empty(),
@@ -307,7 +301,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     fn behavior(&mut self, view: &View<'p, 'a>, item: &mut Item) {
-        let Some(given) = view.find(|parameter| parameter.persistent.non_empty()) else { return };
+        let Some(given) = view.get(ParameterKey::Persistent) else { return };
         let storage = if self.reader.flag(given) { Storage::Immediate } else { Storage::Volatile };
         item.behavior = Some(Box::new(Behavior { storage, ..Behavior::default() }));
     }

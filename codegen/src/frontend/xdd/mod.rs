@@ -13,7 +13,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `document` | a file with its profiles |
-//! | `reader`, `number` | reader state; labels and numbers |
+//! | `reader`, `number`, `fields` | reader state; labels, numbers, and lists of attributes |
 //! | `identity` | file, vendor, product |
 //! | `network` | bit rates, network management, dummy entries, dynamic channels, commissioning |
 //! | `modules` | slots of modular devices |
@@ -27,6 +27,7 @@ mod application;
 mod data_type;
 mod data_type_list;
 mod document;
+mod fields;
 mod identity;
 mod item;
 mod modules;

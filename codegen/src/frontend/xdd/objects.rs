@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::application::{Application, View};
+use super::application::{Application, ParameterKey, View};
+use super::fields::Fields;
 use super::number::integer;
 use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
@@ -51,7 +52,7 @@ pub(super) fn build<'a>(
     Ok(())
 }
 
-/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw`].
+/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw::fields`].
 #[derive(Clone, Copy)]
 pub(super) enum Key {
     Index,
@@ -110,20 +111,15 @@ const OF_A_VALUE: [Key; 8] = [
 
 /// Attributes and texts of an object or sub-object.
 pub(super) struct Raw<'a> {
-    fields: [Given<'a>; OBJECT.len()],
+    fields: Fields<'a>,
     pub extensions: Extensions,
     pub origin: Origin,
 }
 
 impl<'a> Raw<'a> {
-    /// Returns the attribute `key`, which may be missing.
-    pub fn field(&self, key: Key) -> &Given<'a> {
-        &self.fields[key as usize]
-    }
-
-    /// Returns the attribute `key`, or `None` if it is missing or empty.
+    /// Returns the attribute `key`, or `None` if it is missing.
     pub fn get(&self, key: Key) -> Option<&Given<'a>> {
-        self.field(key).non_empty()
+        self.fields.get(key as u8)
     }
 
     fn object_type(&self) -> Option<ObjectType<'_>> {
@@ -133,7 +129,7 @@ impl<'a> Raw<'a> {
 
     /// Returns the span of the attribute `key`, or of the element if the attribute is missing.
     pub fn span(&self, key: Key) -> Span {
-        self.field(key).span.or(self.origin.span)
+        self.get(key).map_or(self.origin.span, |given| given.span)
     }
 }
 
@@ -172,12 +168,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     ) -> Read<Raw<'a>> {
         let start = self.reader.extensions.len();
         let origin = self.reader.origin(tag);
-        let fields = self.reader.attributes(tag, names)?;
+        let mut fields = self.reader.attributes(tag, names)?;
         self.reader.note("rangeSelector", &fields[Key::RangeSelector as usize]);
         while let Some(tag) = self.reader.child(tag)? {
             child(self, &tag)?;
         }
-        Ok(Raw { fields, extensions: self.reader.extensions_since(start), origin })
+        Ok(Raw { fields: Fields::take(&mut fields), extensions: self.reader.extensions_since(start), origin })
     }
 
     fn object(&mut self, index: u16, tag: &Tag<'a>) -> Read<Group> {
@@ -197,10 +193,9 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         group.kind = GroupKind::Object { index, code, category: self.category(&view) };
         group.extensions.append(&mut raw.extensions);
         group.extensions.extend(view.extensions().cloned());
-        let texts = view.texts();
-        group.names = texts.labels.except(&group.name);
+        group.names = view.labels_except(&group.name);
         if code.has_subs() || (!subs.is_empty() && code != ObjectCode::Var) {
-            group.documentation = texts.descriptions.documentation();
+            group.documentation = view.documentation();
             self.subs(&mut group, index, &raw, &view, subs);
         } else {
             self.unused(&raw, &[Key::SubNumber], &mut group.extensions);
@@ -208,7 +203,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             item.name = group.name.clone();
             item.at.name = group.name_at;
             item.names = group.names.clone();
-            item.documentation = texts.descriptions.documentation();
+            item.documentation = view.documentation();
             group.items = vec![item];
         }
         Ok(group)
@@ -216,7 +211,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     fn sub_object(&mut self, tag: &Tag<'a>, subs: &mut BTreeMap<u8, Raw<'a>>) -> Read<()> {
         let raw = self.raw(tag, SUB_OBJECT, |builder, child| builder.reader.unknown(child))?;
-        let Some(sub) = self.reader.hex(raw.field(Key::Index), 0xFF, "sub-index") else {
+        let Some(sub) = raw.get(Key::Index).and_then(|given| self.reader.hex(given, 0xFF, "sub-index")) else {
             missing_index(self.reader, tag, "this sub-object has no sub-index");
             return Ok(());
         };
@@ -246,9 +241,8 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             let component = whole.and_then(|ty| self.component(ty, sub, position, count));
             let mut item = self.item(index, sub, &raw, &view, code, Some((parent, component)));
             self.name(&raw, &view, &mut item.name, &mut item.at.name);
-            let texts = view.texts();
-            item.names = texts.labels.except(&item.name);
-            item.documentation = texts.descriptions.documentation();
+            item.names = view.labels_except(&item.name);
+            item.documentation = view.documentation();
             self.unused(&raw, &[Key::SubNumber], &mut item.extensions);
             item.extensions.append(&mut raw.extensions);
             item.extensions.extend(view.extensions().cloned());
@@ -300,7 +294,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     /// Returns the parameter to which an object refers. Returns no parameter if the limit for copies is exceeded.
     fn view(&mut self, raw: &Raw<'a>) -> View<'p, 'a> {
         let application = self.application;
-        let view = application.view(self.reader, raw.field(Key::UniqueIdRef));
+        let view = application.view(self.reader, raw.get(Key::UniqueIdRef));
         if self.charge(view.weight(), raw.span(Key::UniqueIdRef)) {
             view
         } else {
@@ -325,12 +319,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     fn name(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, name: &mut crate::ir::CompactString, at: &mut Span) {
         match raw.get(Key::Name) {
             Some(given) => (*name, *at) = (given.text.as_ref().into(), given.span),
-            None => *name = view.texts().labels.name(),
+            None => *name = view.name(),
         }
     }
 
     fn category(&mut self, view: &View<'p, 'a>) -> Option<Category> {
-        let given = view.find(|parameter| parameter.support.non_empty())?;
+        let given = view.get(ParameterKey::Support)?;
         match given.text.as_ref() {
             "mandatory" => Some(Category::Mandatory),
             "optional" => Some(Category::Optional),
@@ -344,7 +338,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// Returns the hexadecimal number in the attribute `objFlags`, or 0 if the attribute is missing or invalid.
     pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
-        self.reader.hex(raw.field(Key::ObjFlags), u32::MAX, "value of objFlags").unwrap_or(0)
+        raw.get(Key::ObjFlags).and_then(|given| self.reader.hex(given, u32::MAX, "value of objFlags")).unwrap_or(0)
     }
 
     /// Returns the type of a sub-object, if the type of its object defines the sub-object.

@@ -1,7 +1,8 @@
 //! Reads parameters, their allowed values and units.
 
-use super::application::{Allowed, AllowedRange, Parameter, Unit};
+use super::application::{Allowed, AllowedRange, Parameter, ParameterKey, Unit};
 use super::data_type::TypeRef;
+use super::fields::Fields;
 use super::reader::{Lang, Reader};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::Extension;
@@ -26,21 +27,26 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(G
     let fields = reader.attributes(parent, NAMES)?;
     let [id, template, access, support, persistent, offset, multiplier, access_list, name, initial] = fields;
     reader.note("accessList", &access_list);
-    (parameter.template, parameter.access, parameter.support) = (template, access, support);
-    (parameter.persistent, parameter.offset, parameter.multiplier) = (persistent, offset, multiplier);
-    parameter.default = initial;
+    // The order is that of `ParameterKey`.
+    let mut fields = [template, access, support, persistent, offset, multiplier, initial, Given::missing()];
     while let Some(tag) = reader.child(parent)? {
-        child(reader, &tag, &mut parameter)?;
+        child(reader, &tag, &mut parameter, &mut fields)?;
     }
     if !name.is_missing() && parameter.texts.labels.is_empty() {
         parameter.texts.labels.push(Lang::default(), name);
     }
+    parameter.fields = Fields::take(&mut fields);
     parameter.extensions = reader.extensions_since(start);
     parameter.weight = reader.length(parent);
     Ok((id, parameter))
 }
 
-fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Parameter<'a>) -> Read<()> {
+fn child<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    parameter: &mut Parameter<'a>,
+    fields: &mut [Given<'a>; 8],
+) -> Read<()> {
     if let Some(ty) = TypeRef::read(reader, tag)? {
         parameter.ty = Some(ty);
         return Ok(());
@@ -48,8 +54,8 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Paramet
     match tag.name {
         "label" | "description" => reader.text_or_keep(tag, &mut parameter.texts)?,
         "denotation" => parameter.denotation = Some(Box::new(reader.texts(tag)?)),
-        "defaultValue" => parameter.default = value(reader, tag)?,
-        "actualValue" => parameter.actual = value(reader, tag)?,
+        "defaultValue" => fields[ParameterKey::Default as usize] = value(reader, tag)?,
+        "actualValue" => fields[ParameterKey::Actual as usize] = value(reader, tag)?,
         "substituteValue" => {
             let given = value(reader, tag)?;
             reader.note("substituteValue", &given);

@@ -5,6 +5,7 @@ use compact_str::CompactString;
 use crate::diagnostics::{codes, Code};
 use crate::frontend::canopen::value::Converter;
 use crate::frontend::xml::{self, Names, Read};
+use crate::ir::Documentation;
 use crate::syntax::xml::Tag;
 
 pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Xdd<'d>>;
@@ -49,7 +50,14 @@ impl xml::Language for Lang {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Texts<'a> {
     pub labels: Names<'a, Lang>,
-    pub descriptions: Names<'a, Lang>,
+    pub descriptions: Option<Box<Names<'a, Lang>>>,
+}
+
+impl Texts<'_> {
+    /// Returns the descriptions as documentation of an element, or `None` if there is no description.
+    pub fn documentation(&self) -> Option<Box<Documentation>> {
+        self.descriptions.as_ref()?.documentation()
+    }
 }
 
 impl<'a> Reader<'a, '_> {
@@ -70,7 +78,7 @@ impl<'a> Reader<'a, '_> {
     pub fn text_or_keep(&mut self, tag: &Tag<'a>, texts: &mut Texts<'a>) -> Read<()> {
         let names = match tag.name {
             "label" => &mut texts.labels,
-            "description" => &mut texts.descriptions,
+            "description" => &mut **texts.descriptions.get_or_insert_default(),
             _ => return self.keep(tag),
         };
         let language = Lang(self.attribute(tag, "lang")?.compact());

@@ -20,7 +20,7 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
     let raw = std::mem::take(&mut application.types);
     let defs = raw.into_iter().zip(shapes).zip(bits);
     defs.map(|((raw, shape), bits)| TypeDef {
-        documentation: raw.texts.descriptions.documentation(),
+        documentation: raw.texts.documentation(),
         origin: raw.origin,
         ..TypeDef::new(raw.name, shape.unwrap_or(Shape::Alias(Type::Opaque(None))), bits)
     })
