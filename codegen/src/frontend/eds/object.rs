@@ -10,8 +10,8 @@ use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Behavior, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item, Limits,
-    Mappable, ObjectCode, OtherSpans, Rule, Srdo, Type, Value,
+    Access, Behavior, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Group, Item,
+    Mappable, ObjectCode, Rule, Srdo, Type, Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -241,20 +241,15 @@ impl<'a> Reader<'a, '_> {
         }
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, item);
         item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);
-        item.limits = Limits {
-            low: self.typed(raw.get(Key::LowLimit), item.ty, Role::Limit),
-            high: self.typed(raw.get(Key::HighLimit), item.ty, Role::Limit),
-            ..Limits::default()
-        }
-        .into();
         item.at.default = self.span_of(raw.get(Key::DefaultValue));
-        item.at.others = OtherSpans {
-            low: self.span_of(raw.get(Key::LowLimit)),
-            high: self.span_of(raw.get(Key::HighLimit)),
-            configured: self.span_of(raw.get(Key::ParameterValue)),
-            ..OtherSpans::default()
+        if let Some(entry) = raw.get(Key::LowLimit) {
+            item.limits.low = self.typed(Some(entry), item.ty, Role::Limit);
+            item.at.others.low = self.doc.value_span(entry);
         }
-        .into();
+        if let Some(entry) = raw.get(Key::HighLimit) {
+            item.limits.high = self.typed(Some(entry), item.ty, Role::Limit);
+            item.at.others.high = self.doc.value_span(entry);
+        }
         item.flags = self.flags(raw);
         item.behavior = self.srdo(raw).map(|srdo| Box::new(Behavior { srdo: Some(srdo), ..Behavior::default() }));
         self.configured(raw, item);
@@ -267,6 +262,9 @@ impl<'a> Reader<'a, '_> {
         let keys = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
         if keys.iter().all(|&key| raw.get(key).is_none()) {
             return;
+        }
+        if let Some(entry) = raw.get(Key::ParameterValue) {
+            item.at.others.configured = self.doc.value_span(entry);
         }
         let text = |key| raw.get(key).map(|entry| self.doc.value(entry)).filter(|text| !text.is_empty());
         let mut configured = Configured {
