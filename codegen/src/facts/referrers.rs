@@ -141,7 +141,7 @@ mod tests {
         speed.items.push(Item::new(Binding::canopen(0x2000, 0)));
         let mut limit = Group::object(0x2001, ObjectCode::Var);
         limit.items.push(Item::new(Binding::canopen(0x2001, 0)));
-        let related = RelatedItems { same_quantity: Some(reference()), ..RelatedItems::default() };
+        let related = RelatedItems { same_quantity: Some(Box::new(reference())), ..RelatedItems::default() };
         limit.items[0].related = Some(Box::new(related));
         let mut pdo = Pdo::new(Direction::Transmit, 0x1A00);
         let entry = PdoEntry { item: Some(id), ..PdoEntry::new(0x2000, 0, 8) };

@@ -178,16 +178,16 @@ impl Item {
 pub struct RelatedItems {
     /// Item with the same value under another name.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub same_as: Option<ItemRef>,
+    pub same_as: Option<Box<ItemRef>>,
     /// Item with the same quantity in another scaling.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub same_quantity: Option<ItemRef>,
+    pub same_quantity: Option<Box<ItemRef>>,
     /// Item with the upper half of the value.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub upper_half: Option<ItemRef>,
+    pub upper_half: Option<Box<ItemRef>>,
     /// Item that contains the number of valid elements of this item.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub valid_count: Option<ItemRef>,
+    pub valid_count: Option<Box<ItemRef>>,
     /// Identifier of the item, to which menus refer (`ID` of a parameter in GSDML).
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "CompactString::is_empty"))]
     pub id: CompactString,
@@ -200,13 +200,13 @@ impl RelatedItems {
     /// Returns the references to all related items.
     pub fn all(&self) -> impl Iterator<Item = &ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count, .. } = self;
-        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
+        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten().map(Box::as_ref)
     }
 
     /// Returns the references to all related items for modification.
     pub(crate) fn all_mut(&mut self) -> impl Iterator<Item = &mut ItemRef> {
         let RelatedItems { same_as, same_quantity, upper_half, valid_count, .. } = self;
-        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten()
+        [same_as, same_quantity, upper_half, valid_count].into_iter().flatten().map(Box::as_mut)
     }
 }
 

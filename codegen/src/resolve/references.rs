@@ -417,8 +417,8 @@ mod tests {
         let mut device =
             Device { groups: vec![chapter, group("Limit", object, vec![item("", 0x2005)])], ..Device::default() };
         let related = RelatedItems {
-            same_as: Some("Axis/Mode".into()),
-            same_quantity: Some("Nothing".into()),
+            same_as: Some(Box::new("Axis/Mode".into())),
+            same_quantity: Some(Box::new("Nothing".into())),
             ..RelatedItems::default()
         };
         device.groups[0].items[0].related = Some(Box::new(related));

@@ -58,7 +58,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         behavior: b.maybe(4, |b| Box::new(facts::behavior(b))),
         availability: b.maybe(6, |b| Box::new(facts::availability(b))),
         related: b.maybe(8, |b| {
-            let mut item = || b.maybe(2, names::name).map(Into::into);
+            let mut item = || b.maybe(2, names::name).map(|name| Box::new(name.into()));
             let (same_as, same_quantity, upper_half, valid_count) = (item(), item(), item(), item());
             let (id, unsuitable_values) = (names::name(b), names::name(b));
             Box::new(RelatedItems { same_as, same_quantity, upper_half, valid_count, id, unsuitable_values })

@@ -24,8 +24,14 @@ pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Opt
         reader.diagnostics.push(*stop);
         return None;
     }
-    let Reader { diagnostics, format: Gsdml { texts, types, links, .. }, extensions, .. } = reader;
-    let Document { mut catalog, header, list } = document;
+    let Reader { diagnostics, format, extensions, .. } = reader;
+    let (mut texts, types, links) = format.into_parts();
+    let Document { mut catalog, header, mut list } = document;
+    // Shrinking reduces the peak memory use, which occurs while the texts are copied.
+    texts.shrink_to_fit();
+    list.shrink_to_fit();
+    catalog.modules.shrink_to_fit();
+    catalog.submodules.shrink_to_fit();
     catalog.extensions = extensions;
     header.check_file_name(source.name(), file, diagnostics);
     links.resolve(&mut catalog, diagnostics);
@@ -33,7 +39,7 @@ pub fn read(source: &Source, file: FileId, diagnostics: &mut Diagnostics) -> Opt
     let mut resolver = Resolver::new(list, texts, source.text().len(), diagnostics);
     resolve::catalog(&mut catalog, &mut resolver);
     header.apply(&mut catalog, &mut resolver);
-    let Resolver { list, diagnostics, .. } = resolver;
+    let (list, diagnostics) = resolver.into_list();
     list.close(diagnostics, &mut catalog.unused_texts);
     Some(catalog)
 }

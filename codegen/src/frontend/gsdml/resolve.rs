@@ -135,6 +135,11 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Resolver { list, references, diagnostics, suffixed: HashMap::default(), missing: HashSet::default(), budget }
     }
 
+    /// Returns the text list and the diagnostics, and frees the references.
+    pub fn into_list(self) -> (TextList<'a>, &'d mut Diagnostics) {
+        (self.list, self.diagnostics)
+    }
+
     /// Replaces the placeholder in `name` with its text, or with the text identifier if the text is missing or the budget
     /// is too small. Stores the translations of the text in `names`.
     pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {

@@ -113,6 +113,7 @@ impl<'a> Reader<'a, '_> {
             self.missing(parent, "name", "the name is left empty");
         }
         info.of_submodule(&mut submodule);
+        submodule.records.shrink_to_fit();
         submodule.extensions = self.extensions_since(start);
         let mut fixed = self.numbers(&fixed);
         if let Some(number) = self.unsigned16(&subslot, "subslot number") {

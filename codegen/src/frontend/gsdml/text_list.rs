@@ -99,6 +99,7 @@ impl<'a> TextList<'a> {
             reader.diagnostics.push(diagnostic.label("the lists are merged").note_at(first, "first list"));
         }
         self.seen.insert(name.clone(), parent.span);
+        self.reserve();
         let language = self.languages.len() as u32;
         self.languages.push(name);
         let mut count = 0;
@@ -112,6 +113,18 @@ impl<'a> TextList<'a> {
         }
         self.report_missing(reader.diagnostics, parent, language, count);
         Ok(())
+    }
+
+    /// Reserves memory for the texts of the next language, which usually has as many texts as the primary language.
+    fn reserve(&mut self) {
+        if self.languages.is_empty() {
+            // Translations rarely have an identifier that the primary language lacks.
+            self.entries.shrink_to_fit();
+        }
+        // With exact capacities, the time would be quadratic in the number of languages.
+        if self.languages.len() < USUAL_LANGUAGES {
+            self.translations.reserve_exact(self.primaries);
+        }
     }
 
     /// Returns the position of the entry with the identifier `id`. Adds a missing entry.
@@ -169,6 +182,12 @@ impl<'a> TextList<'a> {
             diagnostic = diagnostic.note_at(first.span, "first text without a translation");
         }
         diagnostics.push(diagnostic);
+    }
+
+    /// Frees the memory that is reserved for further texts.
+    pub fn shrink_to_fit(&mut self) {
+        self.entries.shrink_to_fit();
+        self.translations.shrink_to_fit();
     }
 
     /// Returns the text with the identifier `id` and its translations, or `None` if the list does not contain the text.

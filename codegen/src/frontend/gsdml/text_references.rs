@@ -23,6 +23,11 @@ impl<'a> TextReferences<'a> {
         self.0.push(given);
         placeholder
     }
+
+    /// Frees the memory that is reserved for further references.
+    pub fn shrink_to_fit(&mut self) {
+        self.0.shrink_to_fit();
+    }
 }
 
 /// Returns a placeholder for the text of `placeholder` followed by `suffix`.

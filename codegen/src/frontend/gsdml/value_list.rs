@@ -31,6 +31,7 @@ impl<'a> Reader<'a, '_> {
                 _ => self.unknown(&tag)?,
             }
         }
+        item.values.shrink_to_fit();
         self.format.types.add_values(&id, item);
         Ok(())
     }

@@ -410,12 +410,12 @@ impl Rows {
         let names = [&row.upper, &row.same_quantity, &row.same_as];
         self.references.extend(names.into_iter().flatten().map(|name| (name.clone(), ITEM)));
         let mut related = item.related.take().map_or_else(RelatedItems::default, |related| *related);
-        let found = |name: &Option<At<String>>| name.as_ref().map(|name| reader.reference(name));
+        let found = |name: &Option<At<String>>| name.as_ref().map(|name| Box::new(reader.reference(name)));
         related.upper_half = found(&row.upper).or(related.upper_half);
         related.same_quantity = found(&row.same_quantity).or(related.same_quantity);
         related.same_as = found(&row.same_as).or(related.same_as);
         if let Some(At { value: NumberOrText::Text(count), start, end }) = &row.count {
-            related.valid_count = Some(ItemRef::new(count.as_str(), Span::new(reader.file, *start, *end)));
+            related.valid_count = Some(Box::new(ItemRef::new(count.as_str(), Span::new(reader.file, *start, *end))));
         }
         item.related = (related != RelatedItems::default()).then(|| Box::new(related));
     }
