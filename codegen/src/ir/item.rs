@@ -172,7 +172,7 @@ impl Item {
 }
 
 /// References to items with the same value or quantity, with the upper half of the value, or with the number of valid elements, and
-/// identifiers for references in the source.
+/// identifiers for references in the source. The references are boxed, because only register tables have them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RelatedItems {

@@ -4,6 +4,6 @@
 //! - [`xml`]: a cursor over the events of a document, with positions and the path of open elements.
 
 pub mod ini;
-mod words;
+pub(crate) mod words;
 #[cfg(feature = "xml")]
 pub mod xml;

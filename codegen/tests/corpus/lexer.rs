@@ -12,7 +12,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use configparser::ini::{Ini, IniDefault};
 use corpus_support::{files, header, lane, lines, trimmed};
 use lexibus_codegen::source::{FileId, Source};
-use lexibus_codegen::syntax::ini::{Document, Entry, Oddity};
+use lexibus_codegen::syntax::ini::{Document, Entries, Entry, Oddity, Section};
 
 /// Sections with their keys and values. Names are in lowercase.
 type Sections = BTreeMap<String, BTreeMap<String, String>>;
@@ -89,6 +89,7 @@ fn e20_e61_is_comment(document: &Document<'_>, entry: &Entry) -> bool {
 fn ours(document: &Document<'_>) -> Sections {
     let mut sections = Sections::new();
     for section in document.sections() {
+        with_predicted_keys(document, section);
         let entries = sections.entry(document.name(section).to_lowercase()).or_default();
         for entry in document.entries(section) {
             if !e20_e61_is_comment(document, &entry) {
@@ -97,6 +98,23 @@ fn ours(document: &Document<'_>) -> Sections {
         }
     }
     sections
+}
+
+/// Reads a section with predictions of keys, and compares the entries with those that are read without. The first prediction is
+/// wrong for most entries, the second one is right.
+fn with_predicted_keys(document: &Document<'_>, section: &Section) {
+    let mut predicted = document.entries(section);
+    for entry in document.entries(section) {
+        let key = document.key(&entry).as_bytes();
+        let first = predicted.next_if_key(b"ParameterName");
+        assert!(first.is_none() || key == b"ParameterName", "line {}", entry.line);
+        let second =
+            |entries: &mut Entries<'_>| (8..=16).contains(&key.len()).then(|| entries.next_if_key(key)).flatten();
+        let found = first.or_else(|| second(&mut predicted)).or_else(|| predicted.next());
+        let spans = |entry: &Entry| (entry.line, document.key_span(entry), document.value_span(entry));
+        assert_eq!(found.as_ref().map(spans), Some(spans(&entry)));
+    }
+    assert!(predicted.next().is_none());
 }
 
 /// Returns the lines that the lexer reports as `oddity`.

@@ -113,9 +113,10 @@ pub fn plain(text: &str) -> Option<i64> {
     }
 }
 
-/// Returns the value of at most 15 hexadecimal digits, or `None` for any other text.
+/// Returns the value of at most 15 hexadecimal digits, or 0 if there are none. Returns `None` if another character occurs.
 #[inline]
 pub fn hexadecimal(digits: &[u8]) -> Option<i64> {
+    debug_assert!(digits.len() <= 15);
     let (value, all) = digits.iter().fold((0, 0), |(value, all), &digit| {
         let nibble = NIBBLES[usize::from(digit)];
         (value << 4 | i64::from(nibble), all | nibble)

@@ -5,6 +5,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Extensions;
 use crate::source::Origin;
 use crate::syntax::ini::{Entries, Entry, Section};
+use crate::syntax::words;
 use crate::text::edit_distance;
 
 /// Keyword of an object. The discriminant is the position of the keyword's entry in [`Raw`].
@@ -76,10 +77,8 @@ fn keyword(key: &[u8]) -> Option<Key> {
         (14, b'p') => ("ParameterValue", Key::ParameterValue),
         _ => return None,
     };
-    // The names have 8 to 14 letters. Comparing the first and the last eight is faster than comparing texts of any length.
-    let ends = |name: &[u8]| (name.first_chunk::<8>().copied(), name.last_chunk::<8>().copied());
     let name = name.as_bytes();
-    (ends(name) == ends(key) || name.eq_ignore_ascii_case(key)).then_some(keyword)
+    (words::equal_texts(name, key) || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
 /// Keywords that describe a single value, and have no meaning for an object whose values are in its sub-indices.
@@ -134,7 +133,7 @@ impl Reader<'_, '_> {
         for section in sections {
             let mut entries = self.doc.entries(section);
             let mut last = KEYS;
-            while let Some((key, entry)) = self.next_key(&mut entries, &mut last) {
+            while let Some((key, entry)) = self.next_entry(&mut entries, &mut last) {
                 let field = match key {
                     Some(key) => &mut raw.fields[key as usize],
                     None => match more.iter().position(|name| name.eq_ignore_ascii_case(self.doc.key(&entry))) {
@@ -154,12 +153,13 @@ impl Reader<'_, '_> {
         unknown.iter().for_each(|entry| self.misspelled(entry, raw));
     }
 
-    /// Returns the next entry and its keyword. `last` is the keyword of the last entry. Sections of a file normally have the same
-    /// keywords in the same order, so the keyword that last followed `last` is tried first.
+    /// Returns the next entry and its keyword. `last` is the position of the last keyword in the section, or `KEYS` if there is none
+    /// yet. Sections of a file normally have the same keywords in the same order, so the keyword that most recently followed the last
+    /// one is tried first.
     #[inline(always)]
-    fn next_key(&mut self, entries: &mut Entries<'_>, last: &mut usize) -> Option<(Option<Key>, Entry)> {
+    fn next_entry(&mut self, entries: &mut Entries<'_>, last: &mut usize) -> Option<(Option<Key>, Entry)> {
         let expected = self.next_keys[*last];
-        let (key, entry) = match entries.with_key(NAMES[expected as usize].0.as_bytes()) {
+        let (key, entry) = match entries.next_if_key(NAMES[expected as usize].0.as_bytes()) {
             Some(entry) => (Some(expected), entry),
             None => {
                 let entry = entries.next()?;

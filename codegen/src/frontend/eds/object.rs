@@ -187,14 +187,16 @@ impl<'a> Reader<'a, '_> {
             let mut raw = Raw::new();
             self.assign(same, &[], &mut raw);
             let code = self.sub_code(&raw);
-            rest = &rest[count..];
+            // An item that is filled in its list is not copied.
+            let position = group.items.len();
             group.items.push(Item::new(Binding::canopen(index, sub)));
-            let Some(item) = group.items.last_mut() else { continue };
+            let item = &mut group.items[position];
             item.extensions = std::mem::take(&mut raw.extensions);
             self.describe(item, &raw, code);
             self.name(raw.get(Key::ParameterName), &mut item.name, &mut item.at.name);
             self.unused(&raw, &OF_MANY_VALUES, &mut item.extensions);
             in_order_of_file(&mut item.extensions);
+            rest = &rest[count..];
         }
     }
 
@@ -242,12 +244,17 @@ impl<'a> Reader<'a, '_> {
         item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, item);
         item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);
         item.at.default = self.span_of(raw.get(Key::DefaultValue));
+        // Limits are allocated when they are written, so an empty entry must not write any.
         if let Some(entry) = raw.get(Key::LowLimit) {
-            item.limits.low = self.typed(Some(entry), item.ty, Role::Limit);
+            if let Some(low) = self.typed(Some(entry), item.ty, Role::Limit) {
+                item.limits.low = Some(low);
+            }
             item.at.others.low = self.doc.value_span(entry);
         }
         if let Some(entry) = raw.get(Key::HighLimit) {
-            item.limits.high = self.typed(Some(entry), item.ty, Role::Limit);
+            if let Some(high) = self.typed(Some(entry), item.ty, Role::Limit) {
+                item.limits.high = Some(high);
+            }
             item.at.others.high = self.doc.value_span(entry);
         }
         item.flags = self.flags(raw);

@@ -34,7 +34,8 @@ pub(super) struct Reader<'a, 'd> {
     /// Span of the first flag that is a hexadecimal number, and the number of such flags. One diagnostic reports all
     /// hexadecimal flags, because a tool writes all flags in the same way.
     pub hex_flags: Option<(Span, usize)>,
-    /// For each keyword of an object, the keyword that followed it last; then the keyword that was last the first of its section.
+    /// For each keyword of an object, the keyword that most recently followed it. The last element is the keyword that most recently
+    /// was the first of its section.
     pub next_keys: [Key; KEYS + 1],
 }
 

@@ -115,7 +115,8 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    /// Reserves memory for the texts of the next language, which usually has as many texts as the primary language.
+    /// Reserves memory for the texts of the next language, which usually has as many texts as the primary language. Before the first of
+    /// these languages, frees the spare memory of the entries.
     fn reserve(&mut self) {
         if self.languages.is_empty() {
             // Translations rarely have an identifier that the primary language lacks.

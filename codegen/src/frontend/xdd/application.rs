@@ -4,8 +4,8 @@
 
 use std::borrow::Cow;
 
+use super::attributes::Attributes;
 use super::data_type::{RawType, TypeRef};
-use super::fields::Fields;
 use super::reader::{Lang, Reader, Texts};
 use crate::collections::HashMap;
 use crate::diagnostics::codes;
@@ -30,7 +30,7 @@ pub(super) struct Application<'a> {
 }
 
 /// Attributes of a parameter, and child elements that contain one value. The discriminant is the position of the
-/// attribute in [`Parameter::fields`].
+/// attribute in [`Parameter::attributes`].
 #[derive(Clone, Copy)]
 pub(super) enum ParameterKey {
     Template,
@@ -43,10 +43,15 @@ pub(super) enum ParameterKey {
     Actual,
 }
 
+impl ParameterKey {
+    /// Number of keys.
+    pub const COUNT: usize = ParameterKey::Actual as usize + 1;
+}
+
 /// Contents of a `parameter`, `parameterTemplate` or `varDeclaration` element.
 #[derive(Default)]
 pub(super) struct Parameter<'a> {
-    pub fields: Fields<'a>,
+    pub attributes: Attributes<'a>,
     pub texts: Texts<'a>,
     pub denotation: Option<Box<Texts<'a>>>,
     pub ty: Option<TypeRef<'a>>,
@@ -62,7 +67,7 @@ pub(super) struct Parameter<'a> {
 impl<'a> Parameter<'a> {
     /// Returns the attribute or value `key`, or `None` if it is missing.
     fn get(&self, key: ParameterKey) -> Option<&Given<'a>> {
-        self.fields.get(key as u8)
+        self.attributes.get(key as u8)
     }
 }
 
@@ -135,6 +140,7 @@ impl<'p, 'a> View<'p, 'a> {
         self.labels().map(|labels| labels.except(name)).unwrap_or_default()
     }
 
+    /// Returns the description of the parameter, or of the template if the parameter has none.
     pub fn documentation(&self) -> Option<Box<Documentation>> {
         self.find(|parameter| parameter.texts.documentation())
     }

@@ -13,7 +13,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `document` | a file with its profiles |
-//! | `reader`, `number`, `fields` | reader state; labels, numbers, and lists of attributes |
+//! | `reader`, `number`, `attributes` | reader state; labels, numbers, and lists of attributes |
 //! | `identity` | file, vendor, product |
 //! | `network` | bit rates, network management, dummy entries, dynamic channels, commissioning |
 //! | `modules` | slots of modular devices |
@@ -24,10 +24,10 @@
 //! | `item` | conversion of an object and its parameter to an item |
 
 mod application;
+mod attributes;
 mod data_type;
 mod data_type_list;
 mod document;
-mod fields;
 mod identity;
 mod item;
 mod modules;

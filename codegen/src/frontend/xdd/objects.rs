@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::application::{Application, ParameterKey, View};
-use super::fields::Fields;
+use super::attributes::Attributes;
 use super::number::integer;
 use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
@@ -52,7 +52,7 @@ pub(super) fn build<'a>(
     Ok(())
 }
 
-/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw::fields`].
+/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw::attributes`].
 #[derive(Clone, Copy)]
 pub(super) enum Key {
     Index,
@@ -111,7 +111,7 @@ const OF_A_VALUE: [Key; 8] = [
 
 /// Attributes and texts of an object or sub-object.
 pub(super) struct Raw<'a> {
-    fields: Fields<'a>,
+    attributes: Attributes<'a>,
     pub extensions: Extensions,
     pub origin: Origin,
 }
@@ -119,7 +119,7 @@ pub(super) struct Raw<'a> {
 impl<'a> Raw<'a> {
     /// Returns the attribute `key`, or `None` if it is missing.
     pub fn get(&self, key: Key) -> Option<&Given<'a>> {
-        self.fields.get(key as u8)
+        self.attributes.get(key as u8)
     }
 
     fn object_type(&self) -> Option<ObjectType<'_>> {
@@ -168,12 +168,12 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     ) -> Read<Raw<'a>> {
         let start = self.reader.extensions.len();
         let origin = self.reader.origin(tag);
-        let mut fields = self.reader.attributes(tag, names)?;
-        self.reader.note("rangeSelector", &fields[Key::RangeSelector as usize]);
+        let mut values = self.reader.attributes(tag, names)?;
+        self.reader.note("rangeSelector", &values[Key::RangeSelector as usize]);
         while let Some(tag) = self.reader.child(tag)? {
             child(self, &tag)?;
         }
-        Ok(Raw { fields: Fields::take(&mut fields), extensions: self.reader.extensions_since(start), origin })
+        Ok(Raw { attributes: Attributes::take(&mut values), extensions: self.reader.extensions_since(start), origin })
     }
 
     fn object(&mut self, index: u16, tag: &Tag<'a>) -> Read<Group> {

@@ -1,8 +1,8 @@
 //! Reads parameters, their allowed values and units.
 
 use super::application::{Allowed, AllowedRange, Parameter, ParameterKey, Unit};
+use super::attributes::Attributes;
 use super::data_type::TypeRef;
-use super::fields::Fields;
 use super::reader::{Lang, Reader};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::Extension;
@@ -24,18 +24,28 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(G
         "initialValue",
     ];
     let (mut parameter, start) = (Parameter::default(), reader.extensions.len());
-    let fields = reader.attributes(parent, NAMES)?;
-    let [id, template, access, support, persistent, offset, multiplier, access_list, name, initial] = fields;
+    let attributes = reader.attributes(parent, NAMES)?;
+    let [id, template, access, support, persistent, offset, multiplier, access_list, name, initial] = attributes;
     reader.note("accessList", &access_list);
-    // The order is that of `ParameterKey`.
-    let mut fields = [template, access, support, persistent, offset, multiplier, initial, Given::missing()];
+    let mut values: [Given<'a>; ParameterKey::COUNT] = Default::default();
+    for (key, value) in [
+        (ParameterKey::Template, template),
+        (ParameterKey::Access, access),
+        (ParameterKey::Support, support),
+        (ParameterKey::Persistent, persistent),
+        (ParameterKey::Offset, offset),
+        (ParameterKey::Multiplier, multiplier),
+        (ParameterKey::Default, initial),
+    ] {
+        values[key as usize] = value;
+    }
     while let Some(tag) = reader.child(parent)? {
-        child(reader, &tag, &mut parameter, &mut fields)?;
+        child(reader, &tag, &mut parameter, &mut values)?;
     }
     if !name.is_missing() && parameter.texts.labels.is_empty() {
         parameter.texts.labels.push(Lang::default(), name);
     }
-    parameter.fields = Fields::take(&mut fields);
+    parameter.attributes = Attributes::take(&mut values);
     parameter.extensions = reader.extensions_since(start);
     parameter.weight = reader.length(parent);
     Ok((id, parameter))
@@ -45,7 +55,7 @@ fn child<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     parameter: &mut Parameter<'a>,
-    fields: &mut [Given<'a>; 8],
+    values: &mut [Given<'a>; ParameterKey::COUNT],
 ) -> Read<()> {
     if let Some(ty) = TypeRef::read(reader, tag)? {
         parameter.ty = Some(ty);
@@ -54,8 +64,8 @@ fn child<'a>(
     match tag.name {
         "label" | "description" => reader.text_or_keep(tag, &mut parameter.texts)?,
         "denotation" => parameter.denotation = Some(Box::new(reader.texts(tag)?)),
-        "defaultValue" => fields[ParameterKey::Default as usize] = value(reader, tag)?,
-        "actualValue" => fields[ParameterKey::Actual as usize] = value(reader, tag)?,
+        "defaultValue" => values[ParameterKey::Default as usize] = value(reader, tag)?,
+        "actualValue" => values[ParameterKey::Actual as usize] = value(reader, tag)?,
         "substituteValue" => {
             let given = value(reader, tag)?;
             reader.note("substituteValue", &given);

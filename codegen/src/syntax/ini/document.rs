@@ -44,7 +44,7 @@ pub struct Entry {
     pub line: u32,
 }
 
-/// A violation of the grammar of CiA 306.
+/// A violation of the grammar of CiA 306. Violations with the same span are reported in the order of these variants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Oddity {
     /// A line of more than 255 characters.
@@ -356,16 +356,14 @@ impl Iterator for Entries<'_> {
 }
 
 impl Entries<'_> {
-    /// Returns the entry of the next line if the line starts with `key` and `=`. `key` has at least eight letters. This method is
-    /// faster than [`next`](Iterator::next) if the caller can predict the key.
+    /// Returns the entry of the next line if the line starts with `key` and `=`. Otherwise returns `None` and reads nothing. `key` has
+    /// 8 to 16 bytes. This method is faster than [`next`](Iterator::next) if the caller can predict the key.
     #[inline(always)]
-    pub fn with_key(&mut self, key: &[u8]) -> Option<Entry> {
+    pub fn next_if_key(&mut self, key: &[u8]) -> Option<Entry> {
         let Lines { bytes, at: start, end, line } = self.lines;
         let (found, rest) = bytes.get(start..)?.split_at_checked(key.len())?;
-        // For short texts, this comparison is faster than that of slices.
-        let ends = |text: &[u8]| (text.first_chunk::<8>().copied(), text.last_chunk::<8>().copied());
         let [b'=', rest @ ..] = rest else { return None };
-        if ends(found) != ends(key) || self.comment > 0 || start >= end {
+        if !words::equal_texts(found, key) || self.comment > 0 || start >= end {
             return None;
         }
         let (value, below) = rest.split_at_checked(words::find(rest, line_end))?;
@@ -381,13 +379,15 @@ impl Entries<'_> {
 
     #[inline(always)]
     fn entry(&self, line: Line) -> Option<Entry> {
+        let key = trim_start(line.key);
+        if key.is_empty() && line.value.is_none() {
+            return None;
+        }
         if line.end() - line.start > MAX_LINE {
             self.document.long_line(self.section, line);
         }
-        let key = trim_start(line.key);
-        // An entry that a function returns is copied through memory.
+        // This match is not a separate function, because its result would be copied through memory.
         let (key, value) = match (key, line.value) {
-            ([], None) => return None,
             ([], _) | ([b';' | b'#', ..], _) | (_, None) => self.document.line_without_key(self.section, line)?,
             (_, Some(value)) => {
                 let equals = line.start + line.key.len();
@@ -477,6 +477,7 @@ mod tests {
         );
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(254))), [Oddity::LongLine]);
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(253))), []);
+        assert_eq!(odd(&format!("[A]\n{}\nx=1", " ".repeat(300))), []);
     }
 
     #[test]
@@ -490,7 +491,7 @@ mod tests {
         assert_eq!(oddities, [Oddity::Junk, Oddity::LongLine, Oddity::HashLine]);
     }
 
-    /// An entry with a predicted key is the entry that the iterator finds, or `None` if the next line has another form.
+    /// `next_if_key` returns the same entry as `next`, or `None` if the next line has another form.
     #[test]
     fn a_predicted_key_gives_the_same_entry() {
         for line in ["DataType=5", "DataType= 0x7 \t", "DataType=", "DataType=a=b;c"] {
@@ -499,12 +500,12 @@ mod tests {
                 let document = Document::parse(&text, FileId(0));
                 let section = &document.sections()[0];
                 let mut predicted = document.entries(section);
-                let (found, expected) = (predicted.with_key(b"DataType"), document.entries(section).next());
+                let (found, expected) = (predicted.next_if_key(b"DataType"), document.entries(section).next());
                 assert_eq!(format!("{found:?}"), format!("{expected:?}"), "{text:?}");
-                assert!(predicted.with_key(b"DataType").is_none() && predicted.next().is_none(), "{text:?}");
+                assert!(predicted.next_if_key(b"DataType").is_none() && predicted.next().is_none(), "{text:?}");
             }
         }
-        let long = format!("[A]\nDataType={}", "5".repeat(300));
+        let long = format!("[A]\nDataType={}", "é".repeat(247));
         let others = [
             "[A];c\nDataType=5",
             "[A]\n DataType=5",
@@ -516,7 +517,7 @@ mod tests {
         ];
         for text in others {
             let document = Document::parse(text, FileId(0));
-            assert!(document.entries(&document.sections()[0]).with_key(b"DataType").is_none(), "{text:?}");
+            assert!(document.entries(&document.sections()[0]).next_if_key(b"DataType").is_none(), "{text:?}");
         }
     }
 

@@ -12,7 +12,7 @@ pub(super) fn range(start: usize, end: usize) -> Range {
 /// Iterator over the lines of a part of the text.
 #[derive(Clone, Debug)]
 pub(super) struct Lines<'a> {
-    /// The whole text.
+    /// The text without the blanks, line ends, zeros and Ctrl-Z at its end.
     pub bytes: &'a [u8],
     /// Offset of the next line.
     pub at: usize,

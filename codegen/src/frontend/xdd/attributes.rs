@@ -7,18 +7,18 @@ use crate::frontend::xml::Given;
 /// Attributes of an element, each with its position in the array of all attributes. Missing attributes need no memory.
 /// Most elements have only a few of the attributes that the standard defines.
 #[derive(Default)]
-pub(super) struct Fields<'a>(ThinVec<(u8, Given<'a>)>);
+pub(super) struct Attributes<'a>(ThinVec<(u8, Given<'a>)>);
 
-impl<'a> Fields<'a> {
+impl<'a> Attributes<'a> {
     /// Takes the attributes that are not missing from `all`.
     pub fn take(all: &mut [Given<'a>]) -> Self {
-        let mut fields = ThinVec::with_capacity(all.iter().filter(|given| !given.is_missing()).count());
+        let mut present = ThinVec::with_capacity(all.iter().filter(|given| !given.is_missing()).count());
         for (position, given) in (0..).zip(all) {
             if !given.is_missing() {
-                fields.push((position, std::mem::take(given)));
+                present.push((position, std::mem::take(given)));
             }
         }
-        Fields(fields)
+        Attributes(present)
     }
 
     /// Returns the attribute at `position`, or `None` if it is missing.
