@@ -8,6 +8,7 @@ use lexibus_codegen::RustOptions;
 #[allow(dead_code)]
 #[path = "../../../tests/support/arbitrary_ir/mod.rs"]
 mod arbitrary_ir;
+#[allow(dead_code)]
 #[path = "../../../cli/tests/arbitrary/outputs.rs"]
 mod outputs;
 
