@@ -98,7 +98,8 @@ pub(super) const OF_A_VALUE: [Key; 12] = [
 ];
 
 /// Keywords that only a DCF has.
-const OF_A_CONFIGURATION: [Key; 4] = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
+pub(super) const OF_A_CONFIGURATION: [Key; 4] =
+    [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
 
 /// Keywords that describe an object with sub-indices, and have no meaning for a single value.
 pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];

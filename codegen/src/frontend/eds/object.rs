@@ -1,7 +1,7 @@
 //! Converts the sections of an object to a [`Group`] with its items.
 
 use super::compact;
-use super::keywords::{Key, Raw, OF_A_VALUE, OF_MANY_VALUES};
+use super::keywords::{Key, Raw, OF_A_CONFIGURATION, OF_A_VALUE, OF_MANY_VALUES};
 use super::lists;
 use super::reader::{Fixed, Reader};
 use super::sections::Refinement;
@@ -266,8 +266,7 @@ impl<'a> Reader<'a, '_> {
 
     /// Adds the DCF entries to an item: configured value, denotation and file names.
     fn configured(&mut self, raw: &Raw, item: &mut Item) {
-        let keys = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
-        if keys.iter().all(|&key| raw.get(key).is_none()) {
+        if OF_A_CONFIGURATION.iter().all(|&key| raw.get(key).is_none()) {
             return;
         }
         if let Some(entry) = raw.get(Key::ParameterValue) {

@@ -24,13 +24,6 @@ pub(super) struct Gsdml<'a> {
     pub items: Vec<Item>,
 }
 
-impl<'a> Gsdml<'a> {
-    /// Returns the text references, the types and the links, and frees the buffer.
-    pub fn into_parts(self) -> (TextReferences<'a>, Types<'a>, Links<'a>) {
-        (self.texts, self.types, self.links)
-    }
-}
-
 impl xml::Format for Gsdml<'_> {
     const STANDARD: &'static str = "GSDML V2.35";
     const UNKNOWN: &'static Code = &codes::UNKNOWN_GSDML_ELEMENT;

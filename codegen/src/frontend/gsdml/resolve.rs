@@ -135,7 +135,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Resolver { list, references, diagnostics, suffixed: HashMap::default(), missing: HashSet::default(), budget }
     }
 
-    /// Returns the text list and the diagnostics, and frees the references.
+    /// Returns the text list and the diagnostics, and frees all other memory.
     pub fn into_list(self) -> (TextList<'a>, &'d mut Diagnostics) {
         (self.list, self.diagnostics)
     }

@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::cmp::Reverse;
 
-use super::lines::{line_end, line_ends, range, trim_end, trim_start, trimmed, Line, Lines, Range};
+use super::lines::{line_end, line_end_length, line_ends, range, trim_end, trim_start, trimmed, Line, Lines, Range};
 use crate::source::{FileId, Span};
 use crate::syntax::words;
 
@@ -213,7 +213,7 @@ impl<'a> Document<'a> {
             line += line_ends(&bytes[counted..start], has_returns);
             counted = start;
             let end = start + words::find(&bytes[start..], line_end);
-            let below = end + if bytes[end..].starts_with(b"\r\n") { 2 } else { 1 };
+            let below = end + line_end_length(&bytes[end..]);
             if let Some(section) = self.sections.last_mut() {
                 section.body.1 = start as u32;
             }
@@ -372,7 +372,7 @@ impl Entries<'_> {
         if at - start > MAX_LINE {
             return None;
         }
-        self.lines.at = at + if below.starts_with(b"\r\n") { 2 } else { 1 };
+        self.lines.at = at + line_end_length(below);
         self.lines.line = line + 1;
         Some(Entry { key: range(start, equals), value: trimmed(equals + 1, value), line })
     }

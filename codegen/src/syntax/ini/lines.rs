@@ -50,7 +50,7 @@ impl<'a> Lines<'a> {
             let (text, below) = text.split_at_checked(words::find(text, line_end))?;
             (value, rest) = (Some(text), below);
         }
-        self.at = self.bytes.len() - rest.len() + if rest.starts_with(b"\r\n") { 2 } else { 1 };
+        self.at = self.bytes.len() - rest.len() + line_end_length(rest);
         self.line += 1;
         Some(Line { start, key, value, number })
     }
@@ -71,6 +71,16 @@ pub(super) fn line_end(word: u64) -> u64 {
         return 0;
     }
     words::equal(word, b'\n') | words::equal(word, b'\r')
+}
+
+/// Returns the length of the line end at the start of `rest`: 2 for CR LF, otherwise 1, also at the end of the text.
+#[inline(always)]
+pub(super) fn line_end_length(rest: &[u8]) -> usize {
+    if rest.starts_with(b"\r\n") {
+        2
+    } else {
+        1
+    }
 }
 
 /// Counts the bytes that equal `byte`. For a short text, this function is faster than the one of `memchr`.
