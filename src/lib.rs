@@ -47,6 +47,7 @@
 //! | values, reading and writing | [`Item`], [`Accessor`], [`Value`], [`Range`], [`AccessError`], [`Error`] |
 //! | buses and addresses of an item | [`Location`], [`On`], [`location!`] |
 //! | scaling and units | [`Quantity`], [`Scaled`] and related types |
+//! | types and codes of CiA 301, CiA 402 and CoE, which bindings re-export | [`profiles`] |
 //! | the state machine of a drive | [`Walker`], [`Machine`], [`Step`] |
 //! | modes, homing and motion of a CiA 402 drive | [`cia402`] |
 //! | the configuration of a DCF or XDC | [`Configuration`] |
@@ -133,6 +134,9 @@ mod now;
 #[cfg(feature = "serde")]
 pub mod octets;
 pub mod pdo;
+#[rustfmt::skip]
+#[allow(clippy::indexing_slicing)] // The index of a name is the position of a variant.
+pub mod profiles;
 pub mod profinet;
 mod quantity;
 mod range;

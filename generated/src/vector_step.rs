@@ -7432,6 +7432,14 @@ impl<C> VectorStep<C> {
 }
 /// Enumerations of named values, and bit fields with named bits.
 pub mod types {
+    /// Value type of [`pre_defined_error_field::STANDARD_ERROR_FIELD_1`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_1) and [`pre_defined_error_field::STANDARD_ERROR_FIELD_2`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_2).
+    ///
+    #[doc(inline)]
+    pub use ::lexibus::profiles::types::ErrorFieldEntry;
+    /// Value type of [`sdo1_parameter::COB_ID_CLIENT_TO_SERVER`](super::objects::sdo1_parameter::COB_ID_CLIENT_TO_SERVER) and [`sdo1_parameter::COB_ID_SERVER_TO_CLIENT`](super::objects::sdo1_parameter::COB_ID_SERVER_TO_CLIENT).
+    ///
+    #[doc(inline)]
+    pub use ::lexibus::profiles::types::SdoIdentifier;
     use ::lexibus as rt;
     /// DeviceType drive type.
     ///
@@ -35350,188 +35358,6 @@ pub mod types {
         type Output = Self;
         fn not(self) -> Self {
             Self(self.0 ^ 0x1F)
-        }
-    }
-    /// ErrorFieldEntry.
-    ///
-    /// Definition from CiA 301, 7.5.2.4.
-    ///
-    /// Value type of [`pre_defined_error_field::STANDARD_ERROR_FIELD_1`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_1) and [`pre_defined_error_field::STANDARD_ERROR_FIELD_2`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_2).
-    ///
-    /// | Bits | Name |
-    /// |---|---|
-    /// | 0–15 | [`error_code`](Self::error_code) |
-    /// | 16–31 | [`additional_information`](Self::additional_information) |
-    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-    pub struct ErrorFieldEntry(u32);
-    impl ErrorFieldEntry {
-        /// Creates a value in which all bits are 0.
-        pub const fn new() -> Self {
-            Self(0)
-        }
-        /// Creates the value from its raw bits.
-        pub const fn from_raw(raw: u32) -> Self {
-            Self(raw)
-        }
-        /// Returns the raw bits.
-        pub const fn raw(self) -> u32 {
-            self.0
-        }
-        /// Bits 15 to 0: error code.
-        pub const fn error_code(self) -> u16 {
-            rt::bits32::field(self.0, 0xFFFF) as u16
-        }
-        /// Returns a copy with [`error_code`](Self::error_code) set to `value`.
-        #[must_use]
-        pub const fn with_error_code(self, value: u16) -> Self {
-            Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
-        }
-        /// Bits 31 to 16: additional information.
-        pub const fn additional_information(self) -> u16 {
-            rt::bits32::field(self.0, 0xFFFF0000) as u16
-        }
-        /// Returns a copy with [`additional_information`](Self::additional_information) set to `value`.
-        #[must_use]
-        pub const fn with_additional_information(self, value: u16) -> Self {
-            Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
-        }
-    }
-    impl Default for ErrorFieldEntry {
-        fn default() -> Self {
-            Self::new()
-        }
-    }
-    impl rt::Enumeration for ErrorFieldEntry {
-        type Base = u32;
-        fn from_native(native: u32) -> Self {
-            Self::from_raw(native)
-        }
-        fn native(self) -> u32 {
-            self.0
-        }
-    }
-    impl rt::BitField for ErrorFieldEntry {
-        const LAYOUT: &'static str = "ErrorFieldEntry error_code:ffff additional_information:ffff0000";
-    }
-    impl core::fmt::Debug for ErrorFieldEntry {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
-        }
-    }
-    impl core::fmt::LowerHex for ErrorFieldEntry {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::LowerHex::fmt(&self.0, f)
-        }
-    }
-    impl core::fmt::UpperHex for ErrorFieldEntry {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::UpperHex::fmt(&self.0, f)
-        }
-    }
-    impl core::fmt::Binary for ErrorFieldEntry {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::Binary::fmt(&self.0, f)
-        }
-    }
-    /// SdoIdentifier.
-    ///
-    /// Definition from CiA 301, 7.5.2.33, 7.5.2.34.
-    ///
-    /// Value type of [`sdo1_parameter::COB_ID_CLIENT_TO_SERVER`](super::objects::sdo1_parameter::COB_ID_CLIENT_TO_SERVER) and [`sdo1_parameter::COB_ID_SERVER_TO_CLIENT`](super::objects::sdo1_parameter::COB_ID_SERVER_TO_CLIENT).
-    ///
-    /// | Bits | Name | Meaning |
-    /// |---|---|---|
-    /// | 0–28 | [`identifier`](Self::identifier) |  |
-    /// | 29 | [`extended`](Self::extended) | 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID. |
-    /// | 30 | [`dynamic`](Self::dynamic) | 1 if the COB-ID is assigned at run time. |
-    /// | 31 | [`valid`](Self::valid) | 0 if the COB-ID is in use. Active low: the flag is true if the bit is 0. |
-    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-    pub struct SdoIdentifier(u32);
-    impl SdoIdentifier {
-        /// Creates a value in which all bits are 0.
-        pub const fn new() -> Self {
-            Self(0)
-        }
-        /// Creates the value from its raw bits.
-        pub const fn from_raw(raw: u32) -> Self {
-            Self(raw)
-        }
-        /// Returns the raw bits.
-        pub const fn raw(self) -> u32 {
-            self.0
-        }
-        /// Bits 28 to 0: identifier.
-        pub const fn identifier(self) -> u32 {
-            rt::bits32::field(self.0, 0x1FFFFFFF)
-        }
-        /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
-        #[must_use]
-        pub const fn with_identifier(self, value: u32) -> Self {
-            Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
-        }
-        /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
-        pub const fn extended(self) -> bool {
-            rt::bits32::flag(self.0, 0x20000000)
-        }
-        /// Returns a copy with [`extended`](Self::extended) set to `value`.
-        #[must_use]
-        pub const fn with_extended(self, value: bool) -> Self {
-            Self(rt::bits32::with_flag(self.0, 0x20000000, value))
-        }
-        /// Bit 30: dynamic. 1 if the COB-ID is assigned at run time.
-        pub const fn dynamic(self) -> bool {
-            rt::bits32::flag(self.0, 0x40000000)
-        }
-        /// Returns a copy with [`dynamic`](Self::dynamic) set to `value`.
-        #[must_use]
-        pub const fn with_dynamic(self, value: bool) -> Self {
-            Self(rt::bits32::with_flag(self.0, 0x40000000, value))
-        }
-        /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the COB-ID is in use.
-        pub const fn valid(self) -> bool {
-            !rt::bits32::flag(self.0, 0x80000000)
-        }
-        /// Returns a copy with [`valid`](Self::valid) set to `value`.
-        #[must_use]
-        pub const fn with_valid(self, value: bool) -> Self {
-            Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
-        }
-    }
-    impl Default for SdoIdentifier {
-        fn default() -> Self {
-            Self::new()
-        }
-    }
-    impl rt::Enumeration for SdoIdentifier {
-        type Base = u32;
-        fn from_native(native: u32) -> Self {
-            Self::from_raw(native)
-        }
-        fn native(self) -> u32 {
-            self.0
-        }
-    }
-    impl rt::BitField for SdoIdentifier {
-        const LAYOUT: &'static str = "SdoIdentifier identifier:1fffffff extended:20000000 dynamic:40000000 !valid:80000000";
-    }
-    impl core::fmt::Debug for SdoIdentifier {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            rt::debug_bits(f, self.0 as u64, <Self as rt::BitField>::LAYOUT, &[])
-        }
-    }
-    impl core::fmt::LowerHex for SdoIdentifier {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::LowerHex::fmt(&self.0, f)
-        }
-    }
-    impl core::fmt::UpperHex for SdoIdentifier {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::UpperHex::fmt(&self.0, f)
-        }
-    }
-    impl core::fmt::Binary for SdoIdentifier {
-        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-            core::fmt::Binary::fmt(&self.0, f)
         }
     }
     /// States of drive, read from [Statusword](super::objects::STATUSWORD).

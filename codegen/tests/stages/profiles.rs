@@ -4,6 +4,7 @@ use crate::corpus_support;
 
 use std::path::Path;
 
+use lexibus_codegen::backend::rust::Presence;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::diagnostics::codes::CODES;
 use lexibus_codegen::diagnostics::{Level, Levels};
@@ -201,6 +202,44 @@ fn the_bus_decides_what_communication_objects_are() {
     assert_eq!(type_name(&slave, 0x1C00, 1), "SyncManagerType");
     let slave = catalog("d.xml", &esi("1014"), &Options::default()).devices.remove(0);
     assert_eq!(item(&slave, 0x1014, 0).ty, Type::Unsigned(32), "no COB-ID on EtherCAT");
+}
+
+/// Returns the generated Rust of an EDS.
+fn rust(text: &str, options: &Options) -> String {
+    let compilation = check(Source::new("drive.eds", text.as_bytes().to_vec()), options);
+    compilation.rust(&options.rust).unwrap_or_else(|| panic!("{:?}", compilation.diagnostics.list()))
+}
+
+#[test]
+fn bindings_reexport_the_definitions_of_profiles() {
+    let code = rust(&drive(""), &Options::default());
+    for name in ["types::ModesOfOperation", "types::Controlword", "types::Statusword", "types::DeviceType"] {
+        assert!(code.contains(&format!("pub use ::lexibus::profiles::{name};")), "{name} in {code}");
+    }
+    assert!(code.contains("pub use ::lexibus::profiles::codes::{"), "{code}");
+    assert!(!code.contains("pub enum State") && !code.contains("pub enum DriveErrors"), "{code}");
+}
+
+#[test]
+fn bindings_contain_definitions_of_profiles_that_the_runtime_does_not_contain() {
+    // The options ask for a trait that the types of the runtime do not implement.
+    let mut options = Options::default();
+    options.rust.serde = Presence::Feature("serde".into());
+    let code = rust(&drive(""), &options);
+    assert!(!code.contains("profiles::types"), "{code}");
+    assert!(code.contains("pub enum State") && code.contains("pub struct Controlword(u16);"), "{code}");
+
+    // A type of the description has the name of the state type, so the states have another name. The bit fields with
+    // methods for the states are then also in the bindings. The type of 0x6060 is not affected.
+    let mut options = Options::default();
+    let overlay = "lexibus = 1\n[overlay]\nwhy = \"names\"\n[[chapters]]\n[chapters.objects]\n\
+        0x2000 = { enum = \"State\" }\n\
+        [enums.State]\nbase = \"u8\"\n[enums.State.values]\n0 = \"off\"\n1 = \"on\"\n";
+    options.overlays.push(Source::new("drive.overlay.toml", overlay.as_bytes().to_vec()));
+    let object = "[2000]\nParameterName=State\nDataType=5\nAccessType=ro\n";
+    let code = rust(&drive(object), &options);
+    assert!(code.contains("pub enum DriveState") && code.contains("pub struct Controlword(u16);"), "{code}");
+    assert!(code.contains("pub use ::lexibus::profiles::types::ModesOfOperation;"), "{code}");
 }
 
 #[test]

@@ -19,6 +19,8 @@ use crate::number::hex;
 /// A bit field, ready to be printed.
 pub(super) struct BitFieldModel {
     pub name: String,
+    /// True if a profile states the bit field.
+    pub is_of_profile: bool,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     /// Data for the implementations of `Debug` and the number formats, if the options request `Debug`.
@@ -41,11 +43,6 @@ pub(super) struct BitFieldModel {
 }
 
 impl BitFieldModel {
-    /// Returns the names of the type and of its views.
-    pub(super) fn names(&self) -> Vec<&str> {
-        std::iter::once(&self.name).chain(self.views.iter().map(|view| &view.name)).map(String::as_str).collect()
-    }
-
     /// Returns the Rust types of all fields, including those of the views.
     pub(super) fn type_names(&self) -> impl Iterator<Item = &str> {
         self.fields.iter().chain(self.views.iter().flat_map(|view| &view.fields)).map(|field| field.ty.as_str())
@@ -206,6 +203,7 @@ pub(super) fn model(
         views,
         fields,
         name: name.clone(),
+        is_of_profile: context.is_of_profile(position),
     }
 }
 

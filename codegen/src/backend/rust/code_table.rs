@@ -10,12 +10,15 @@ use super::links::is_derive;
 use super::literal;
 use super::options::RustOptions;
 use crate::facts::words::bus_names;
+use crate::ir::stated::is_of_profile;
 use crate::ir::{CodeRow, CodeTable, Device, Value};
 use crate::names::{self, Case};
 
 /// A code table, ready to be printed.
 pub(super) struct CodeTableModel {
     pub name: String,
+    /// True if a profile states the table.
+    pub is_of_profile: bool,
     /// Link to the table, relative to its module.
     pub link: String,
     pub docs: Vec<String>,
@@ -77,7 +80,8 @@ fn model(
         docs.extend([String::new(), format!("The codes have the type {}.", link(&model.name, "enum", &name))]);
     }
     let has_real = table.rows.iter().flat_map(|row| &row.cells).any(|cell| matches!(cell, Value::Real(_)));
-    CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
+    let is_of_profile = is_of_profile(table.stated_by.as_deref());
+    CodeTableModel { name, is_of_profile, link: static_link, docs, rows, has_real, ty }
 }
 
 /// Returns the expression for a row of a code table. Returns `None` if the first or last code does not fit in an `i64`.

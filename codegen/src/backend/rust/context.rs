@@ -7,6 +7,7 @@ use super::located::Located;
 use super::naming::types::NamedType;
 use super::naming::Names;
 use super::words;
+use crate::ir::stated::is_of_profile;
 use crate::ir::{ElementId, Reference, Type};
 
 /// A device or module with the results of all previous stages.
@@ -29,6 +30,11 @@ impl Context<'_> {
     pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
         let (position, _) = self.resolve(ty).1?;
         self.names.types.get(position)
+    }
+
+    /// Returns whether a profile states the type at `position` in the list of types.
+    pub fn is_of_profile(&self, position: u32) -> bool {
+        self.types.get(position as usize).is_some_and(|definition| is_of_profile(definition.stated_by.as_deref()))
     }
 
     /// Returns a link from `doc_module` to the referenced element, if this element has a path.

@@ -1,15 +1,14 @@
 //! Shares definitions between the devices and modules of a file. The first device or module with a definition contains
 //! the code of the definition, and the others re-export it.
 
-use super::bit_field::BitFieldModel;
 use super::code::Code;
 use super::handle;
-use super::machine::MachineModel;
 use super::model::Model;
 use super::naming::handles::is_cased;
 use super::objects::ObjectModel;
 use super::print;
-use super::reexport::{Reexport, Section};
+use super::reexport::{self, Home, Reexport, Section};
+use super::shareable::{self, Shareable};
 use crate::collections::HashMap;
 
 /// The definitions of all devices and modules that were processed so far.
@@ -33,11 +32,11 @@ impl Definitions {
     pub fn share(&mut self, model: &mut Model, module: &str) {
         model.is_one_of_several = true;
         let mut device = Device { all: self, module, numbers: HashMap::default(), reexports: Vec::new() };
-        device.share_types(model);
-        device.share_codes(model);
+        shareable::retain_types(&mut model.types, &mut |types| device.is_kept(types));
+        shareable::retain_code_tables(&mut model.code_tables, &mut |table| device.is_kept(table));
         device.share_objects(model);
         device.share_process_data(model);
-        model.reexports = device.reexports;
+        model.reexports.extend(device.reexports);
     }
 }
 
@@ -79,54 +78,13 @@ impl Device<'_> {
     }
 
     fn reexport(&mut self, section: Section, number: usize, names: &[&str]) {
-        let home = &self.all.homes[number];
-        let names = names.iter().map(|name| (*name).to_owned());
-        match self.reexports.iter_mut().find(|reexport| reexport.section == section && reexport.home == *home) {
-            Some(reexport) => reexport.names.extend(names),
-            None => self.reexports.push(Reexport { section, home: home.clone(), names: names.collect() }),
-        }
+        let home = Home::Module(self.all.homes[number].clone());
+        names.iter().for_each(|name| reexport::add(&mut self.reexports, section, &home, name, String::new()));
     }
 
-    fn share_types(&mut self, model: &mut Model) {
-        let types = &mut model.types;
-        types.enumerations.retain(|(_, enumeration)| {
-            let write = |code: &mut Code| print::types::enumeration(code, enumeration);
-            self.is_new(&[Section::Types], &[&enumeration.name], std::iter::empty(), &write)
-        });
-        // A state machine adds methods to its bit fields. State machines and their bit fields must therefore be shared
-        // together.
-        let machines = std::mem::take(&mut types.machines);
-        let has_methods =
-            |bits: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == bits.name);
-        types.bit_fields.retain(|(_, bits)| {
-            let write = |code: &mut Code| print::bit_field::write(code, bits);
-            has_methods(bits) || self.is_new(&[Section::Types], &bits.names(), in_types(bits.type_names()), &write)
-        });
-        if machines.is_empty() {
-            return;
-        }
-        let with_methods: Vec<&BitFieldModel> =
-            types.bit_fields.iter().map(|(_, bits)| bits).filter(|bits| has_methods(bits)).collect();
-        let names =
-            machines.iter().flat_map(MachineModel::names).chain(with_methods.iter().flat_map(|bits| bits.names()));
-        let write = |code: &mut Code| {
-            with_methods.iter().for_each(|bits| print::bit_field::write(code, bits));
-            machines.iter().for_each(|machine| print::types::machine(code, machine));
-        };
-        let used = in_types(with_methods.iter().flat_map(|bits| bits.type_names()));
-        if self.is_new(&[Section::Types], &names.collect::<Vec<_>>(), used, &write) {
-            types.machines = machines;
-        } else {
-            types.bit_fields.retain(|(_, bits)| !has_methods(bits));
-        }
-    }
-
-    fn share_codes(&mut self, model: &mut Model) {
-        model.code_tables.retain(|table| {
-            let mut names = vec![table.name.as_str()];
-            names.extend(table.ty.as_ref().map(|ty| ty.name.as_str()).filter(|name| *name != table.name));
-            self.is_new(&[Section::Codes], &names, std::iter::empty(), &|code| print::codes::table(code, table))
-        });
+    fn is_kept(&mut self, definitions: &Shareable<'_>) -> bool {
+        let names: Vec<&str> = definitions.names.iter().map(|(name, _)| *name).collect();
+        self.is_new(&[definitions.section], &names, in_types(definitions.used.iter().copied()), definitions.write)
     }
 
     fn share_objects(&mut self, model: &mut Model) {

@@ -14,6 +14,7 @@ use super::options::RustOptions;
 use super::value_type;
 use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
+use crate::ir::stated::is_of_profile;
 use crate::ir::{CommandId, CommandRef, ItemRef, Pattern, Shape, StateMachine, StateRef, Transition, Type, TypeId};
 use crate::names::{self, Case};
 
@@ -28,6 +29,8 @@ pub(super) struct MachineModel {
     pub faults: Vec<String>,
     /// Variant of the state "Operation enabled" of CiA 402, in which the drive is energized.
     pub energized: Option<String>,
+    /// True if a profile states the state machine.
+    pub is_of_profile: bool,
 }
 
 impl MachineModel {
@@ -159,7 +162,8 @@ pub(super) fn models(
             states.docs.extend(listed.into_iter().filter(|_| !has_commands));
         }
         let energized = states.as_ref().and_then(energized);
-        MachineModel { states, commands, steps, faults, energized }
+        let is_of_profile = is_of_profile(machine.stated_by.as_deref());
+        MachineModel { states, commands, steps, faults, energized, is_of_profile }
     };
     context.names.types.machines.iter().map(model).collect()
 }

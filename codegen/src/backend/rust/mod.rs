@@ -49,6 +49,7 @@ mod options;
 mod pdo;
 mod print;
 mod procedure;
+mod profiles;
 #[cfg(feature = "gsdml")]
 mod profinet;
 mod program;
@@ -58,6 +59,7 @@ mod reexport;
 mod remap;
 mod route;
 mod scope;
+mod shareable;
 mod simulation;
 mod slot_dependency;
 mod table;

@@ -31,6 +31,7 @@ use super::objects::{self, ObjectModel};
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::procedure::{self, ProcedureModel};
+use super::profiles;
 use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
@@ -108,7 +109,7 @@ pub(super) struct Model {
     pub table_feature: Option<String>,
     /// True if the file has several devices or modules, which may re-export definitions from each other.
     pub is_one_of_several: bool,
-    /// Definitions that earlier devices or modules of the file already contain.
+    /// Definitions that the runtime, or earlier devices or modules of the file already contain.
     pub reexports: Vec<Reexport>,
 }
 
@@ -137,6 +138,7 @@ impl Model {
         model.bus_facts.extend(composite::models(&context));
         model.configuration = configuration::model(device, options);
         model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
+        profiles::share(&mut model, &context);
         model
     }
 
@@ -146,6 +148,7 @@ impl Model {
         let mut model = Model::of_context(&context, options);
         model.title = docs::escape(&module.name);
         model.module = Some(ethercat::module(module, &model.pdos));
+        profiles::share(&mut model, &context);
         model
     }
 

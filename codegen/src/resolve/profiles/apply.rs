@@ -21,7 +21,7 @@ pub(super) const STORED: [&str; 4] = [
 const MODULAR: u32 = 5001;
 
 /// Returns all profiles. The profiles are parsed at the first call.
-fn all() -> &'static [Profile] {
+pub(crate) fn all() -> &'static [Profile] {
     static PROFILES: OnceLock<Vec<Profile>> = OnceLock::new();
     PROFILES.get_or_init(|| {
         let mut profiles: Vec<Profile> = STORED.iter().filter_map(|text| stored::read(text)).collect();

@@ -17,6 +17,8 @@ mod complete;
 mod profile;
 mod stored;
 
+#[cfg(test)]
+pub(crate) use apply::all;
 pub(crate) use apply::apply;
 pub use apply::is_device_of_number;
 #[cfg(test)]

@@ -167,7 +167,6 @@
         pub use super::super::d3::types::Dt0800En08;
     }
         pub use super::super::d1::types::Dt0800En08;
-        pub use super::super::d1::codes::{EMERGENCY, Emergency};
         pub use super::super::d1::pdo::Sensors;
         pub use super::super::d1::view::Sensors;
         pub use super::super::d1::image::{Inputs, InputsView};

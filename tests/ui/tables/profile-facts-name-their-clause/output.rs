@@ -27,18 +27,7 @@
         0x00,
         "Digital inputs",
     );
-    /// DigitalInputs.
-    ///
-    /// Definition from CiA 402, 9.3.15.
-    ///
     /// Value type of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
     ///
-    /// | Bits | Name |
-    /// |---|---|
-    /// | 0 | [`negative_limit_switch`](Self::negative_limit_switch) |
-    /// | 1 | [`positive_limit_switch`](Self::positive_limit_switch) |
-    /// | 2 | [`home_switch`](Self::home_switch) |
-    /// | 3 | [`interlock`](Self::interlock) |
-    /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |
-    #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-    pub struct DigitalInputs(u32);
+    #[doc(inline)]
+    pub use ::lexibus::profiles::types::DigitalInputs;

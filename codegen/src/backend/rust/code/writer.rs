@@ -13,12 +13,24 @@ pub struct Code {
     /// Buffer for the line that is being assembled.
     line: Doc,
     runtime: String,
+    /// False if doc comments are left out.
+    has_docs: bool,
 }
 
 impl Code {
     /// Creates code that begins with the text `start`. `runtime` is the path of the runtime crate.
     pub fn new(start: String, runtime: &str) -> Self {
-        Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned() }
+        Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned(), has_docs: true }
+    }
+
+    /// Creates empty code in which doc comments are left out.
+    pub fn without_docs(runtime: &str) -> Self {
+        Code { has_docs: false, ..Code::new(String::new(), runtime) }
+    }
+
+    /// Returns the path of the runtime crate.
+    pub fn runtime(&self) -> &str {
+        &self.runtime
     }
 
     /// Returns the complete text with a line break at the end.
@@ -72,6 +84,9 @@ impl Code {
 
     /// Writes a doc comment of one line.
     pub fn doc(&mut self, text: &str) {
+        if !self.has_docs {
+            return;
+        }
         self.reserve(text.len() + LINE);
         newline(&mut self.out, self.indent);
         self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);

@@ -8,7 +8,7 @@ use crate::backend::rust::code_type::CodeTypeModel;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
-pub(super) fn write(code: &mut Code, model: &Model) {
+pub(in crate::backend::rust) fn write(code: &mut Code, model: &Model) {
     let tables = &model.code_tables;
     let heading = "Code tables. The function `codes::find` of the runtime returns the row for a code.";
     section::write(code, model, Section::Codes, heading, (!tables.is_empty()).then_some(true), |code| {

@@ -2,9 +2,9 @@
 
 use crate::backend::rust::code::{line, Code, Data};
 use crate::backend::rust::model::Model;
-use crate::backend::rust::reexport::{Reexport, Section};
+use crate::backend::rust::reexport::{Home, Reexport, Section};
 
-/// Writes a section of a device: re-exports of definitions in earlier devices, and new definitions. Writes nothing if
+/// Writes a section of a device: re-exports of definitions in the runtime or in earlier devices, and new definitions. Writes nothing if
 /// the section has neither re-exports nor definitions.
 ///
 /// `names_runtime` states whether the code of new definitions contains a path into the runtime crate. The value is
@@ -31,6 +31,18 @@ pub(super) fn write(
 }
 
 fn reexport(code: &mut Code, reexport: &Reexport) {
+    let home = match &reexport.home {
+        Home::Runtime => {
+            if !reexport.docs.is_empty() {
+                // Rustdoc appends the documentation of the definition, which is a separate paragraph.
+                code.doc(&reexport.docs);
+                code.doc("");
+            }
+            line!(code, "#[doc(inline)]");
+            format!("{}::profiles", code.runtime())
+        }
+        Home::Module(module) => format!("super::super::{module}"),
+    };
     let names = Data::names(&reexport.names);
-    line!(code, "pub use super::super::", reexport.home, "::", reexport.section.name(), "::", names, ";");
+    line!(code, "pub use ", home, "::", reexport.section.name(), "::", names, ";");
 }

@@ -8,7 +8,7 @@ use crate::backend::rust::machine::{MachineModel, PatternModel, PatternsModel, S
 use crate::backend::rust::model::Model;
 use crate::backend::rust::reexport::Section;
 
-pub(super) fn write(code: &mut Code, model: &Model) {
+pub(in crate::backend::rust) fn write(code: &mut Code, model: &Model) {
     let types = &model.types;
     let heading = match types.has_bit_fields {
         false => "Enumerations of named values.",
