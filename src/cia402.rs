@@ -61,7 +61,6 @@ mod homing;
 mod integer;
 mod objects;
 mod settling;
-mod state;
 mod stop;
 mod target;
 
@@ -70,5 +69,6 @@ pub use drive::Drive;
 pub use error::MotionError;
 pub use integer::{Absent, ReadInteger, WriteInteger};
 pub use objects::{Homing, Objects, Positioning, Velocity};
-pub use state::{Mode, State};
 pub use target::Target;
+
+pub use crate::profiles::types::{ModesOfOperation as Mode, State};

@@ -7,7 +7,9 @@ use std::time::Duration;
 use lexibus::cia402::{self, CycleError, Cyclic, Inputs, Mode, MotionError, ReadInteger, State, Target, WriteInteger};
 use lexibus::sim::{Connection, Device, Fault};
 use lexibus::table::Entry;
-use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, DataType, Error, Item, Object, OnCanOpen, Ro, Rw};
+use lexibus::{
+    AbortCode, AsyncClient, CanOpen, Client, CoE, DataType, Error, Item, MachineState, Object, OnCanOpen, Ro, Rw,
+};
 use lexibus_drives::{demo_drive, eco, vector_step};
 
 #[path = "support/entry.rs"]
@@ -153,7 +155,7 @@ impl Rig {
             rig.write(0x6040, &control.to_le_bytes());
         }
         rig.drive.device().step(ms(2));
-        assert_eq!(rig.drive.device().get(STATUSWORD).map(State::of_status), Ok(Some(State::OperationEnabled)));
+        assert_eq!(rig.drive.device().get(STATUSWORD).map(State::from_raw), Ok(Some(State::OperationEnabled)));
         assert_eq!(rig.drive.device().get(ACTIVE_MODE), Ok(mode));
         rig.writes.clear();
         rig
@@ -255,7 +257,7 @@ fn modes() {
     assert_eq!(rig.motion().set_mode(6_i8, DEADLINE), Ok(()));
     assert_eq!(rig.writes, [(0x6060, 3), (0x6060, 6)]);
     // The drive doesn't activate the mode.
-    let refused = MotionError::ModeNotConfirmed { requested: Mode::Other(-5), active: Mode::Homing };
+    let refused = MotionError::ModeNotConfirmed { requested: Mode::Unknown(-5), active: Mode::Homing };
     assert_eq!(rig.motion().set_mode(-5_i8, ms(50)), Err(refused));
     assert_eq!(rig.time, 60);
     // The drive refuses the access.
@@ -477,6 +479,25 @@ fn following_errors_of_a_move() {
     rig.cleared = 1 << 12;
     let failed = rig.motion().move_to(Target::absolute(500), DEADLINE);
     assert_eq!((failed, rig.control()), (Err(MotionError::FollowingError { error: Some(0) }), 0x0F));
+}
+
+#[test]
+fn states_of_all_statuswords() {
+    // The patterns of CiA 402-2 10.3.2: mask, value and state.
+    let patterns = [
+        (0x4F, 0x00, State::NotReadyToSwitchOn),
+        (0x4F, 0x40, State::SwitchOnDisabled),
+        (0x6F, 0x21, State::ReadyToSwitchOn),
+        (0x6F, 0x23, State::SwitchedOn),
+        (0x6F, 0x27, State::OperationEnabled),
+        (0x6F, 0x07, State::QuickStopActive),
+        (0x4F, 0x0F, State::FaultReactionActive),
+        (0x4F, 0x08, State::Fault),
+    ];
+    for status in 0..=u16::MAX {
+        let expected = patterns.iter().find(|(mask, value, _)| status & mask == *value).map(|(.., state)| *state);
+        assert_eq!(State::from_raw(status), expected, "0x{status:04X}");
+    }
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use core::fmt;
 
 use super::bits::{CONFIRMED, FAILED, OF_MODE};
-use super::state::{Mode, State};
-use crate::enumeration::Enumeration;
-use crate::machine::StateWord;
+use super::error::Numbered;
+use super::{Mode, State};
+use crate::machine::{MachineState, StateWord};
 
 /// Monitors a drive in a cyclic synchronous mode (CSP, CSV or CST), and selects the set-point that the drive receives
 /// in each cycle. A `Cyclic` needs no client and works with every bus library: the program copies the inputs from the
@@ -167,7 +167,7 @@ impl Cyclic {
         target: i32,
     ) -> Result<Cycle<W>, CycleError> {
         let status = inputs.status.bits() as u16;
-        let state = State::of_status(status);
+        let state = State::from_raw(status);
         let control = W::from_bits(control.bits() & !u32::from(OF_MODE));
         let held = Cycle { control, target: self.hold(&inputs), is_following: false };
         let has_followed = core::mem::take(&mut self.has_followed);
@@ -179,7 +179,7 @@ impl Cyclic {
                 state => Err(CycleError::NotEnabled { state }),
             };
         }
-        let active = inputs.mode.map_or(self.mode, Mode::from_native);
+        let active = inputs.mode.map_or(self.mode, Mode::from_raw);
         if active != self.mode {
             return if has_followed { Err(CycleError::WrongMode(active)) } else { Ok(held) };
         }
@@ -214,7 +214,9 @@ impl fmt::Display for CycleError {
                 write!(f, "the drive has left the state \"operation enabled\", and is in the state \"{state}\"")
             }
             Self::NotEnabled { state: None } => f.write_str("the statusword encodes no state"),
-            Self::WrongMode(active) => write!(f, "the drive has left the mode; the active mode is {active}"),
+            Self::WrongMode(active) => {
+                write!(f, "the drive has left the mode; the active mode is {}", Numbered(*active))
+            }
             Self::FollowingError { error: Some(error) } => write!(f, "following error: {error}"),
             Self::FollowingError { error: None } => f.write_str("following error"),
             Self::LimitExceeded { error, limit } => {

@@ -10,11 +10,10 @@ use super::homing::Outcome;
 use super::integer::{ReadInteger, WriteInteger};
 use super::objects::{Homing, Objects, Positioning, Velocity};
 use super::settling::{Settling, SETTLING};
-use super::state::{Mode, State};
 use super::target::Target;
+use super::{Mode, State};
 use crate::client::{AsyncClient, Client};
-use crate::enumeration::Enumeration;
-use crate::machine::StateWord;
+use crate::machine::{MachineState, StateWord};
 use crate::remaining::Remaining;
 
 /// Operations of one axis. The method `cia402` of a generated device returns a `Drive`. `C` is the client, and `O`
@@ -62,7 +61,7 @@ macro_rules! operations {
             /// Returns [`MotionError::Access`] if the access fails.
             pub $($async)? fn $mode(&mut self) -> Result<Mode, MotionError<C::Error>> {
                 let mode = O::modes_of_operation_display().$read(self.client)$(.$await)??;
-                Ok(Mode::from_native(mode as i8))
+                Ok(Mode::from_raw(mode as i8))
             }
 
             /// Changes the mode of operation: writes the mode (0x6060) and waits until the drive confirms it (0x6061).
@@ -86,7 +85,7 @@ macro_rules! operations {
                 mode: impl StateWord,
                 deadline: Duration,
             ) -> Result<(), MotionError<C::Error>> {
-                let mode = Mode::from_native(mode.bits() as i8);
+                let mode = Mode::from_raw(mode.bits() as i8);
                 let mut remaining = Remaining::new(self.client.now(), deadline);
                 self.$change(mode, &mut remaining)$(.$await)?
             }
@@ -130,7 +129,7 @@ macro_rules! operations {
             /// Reads the statusword. Returns an error if the operation isn't enabled.
             pub(super) $($async)? fn $enabled(&mut self) -> Result<u16, MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
-                match State::of_status(status) {
+                match State::from_raw(status) {
                     Some(State::OperationEnabled) => Ok(status),
                     Some(state) if state.is_fault() => {
                         let code = O::error_code().$read(self.client)$(.$await)?;
@@ -168,7 +167,7 @@ macro_rules! operations {
             $($async)? fn $clear(&mut self) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
                 let control = self.$control()$(.$await)??;
-                if control & START != 0 && keeps_state(State::of_status(status), control) {
+                if control & START != 0 && keeps_state(State::from_raw(status), control) {
                     self.$command(control & !START)$(.$await)??;
                 }
                 Ok(())
@@ -191,7 +190,7 @@ macro_rules! operations {
                 remaining: &mut Remaining,
             ) -> Result<(), MotionError<C::Error>> {
                 let status = O::statusword().$read(self.client)$(.$await)?? as u16;
-                let state = State::of_status(status);
+                let state = State::from_raw(status);
                 if self.$mode()$(.$await)?? != mode {
                     let control = self.$control()$(.$await)??;
                     if state == Some(State::OperationEnabled) {
@@ -201,7 +200,7 @@ macro_rules! operations {
                         self.$command(control & !OF_MODE)$(.$await)??;
                     }
                 }
-                O::modes_of_operation().$write(self.client, mode.native().into())$(.$await)??;
+                O::modes_of_operation().$write(self.client, mode.raw().into())$(.$await)??;
                 loop {
                     let active = self.$mode()$(.$await)??;
                     if active == mode {

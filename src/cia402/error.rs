@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::state::{Mode, State};
+use super::{Mode, State};
 use crate::access_error::AccessError;
 use crate::error::Error;
 
@@ -101,8 +101,11 @@ impl<E: fmt::Display> fmt::Display for MotionError<E> {
                     "the controlword 0x{control:04X} doesn't enable the operation: another source commands the drive"
                 )
             }
-            Self::WrongMode { active } => write!(f, "the operation is not possible in the active mode {active}"),
+            Self::WrongMode { active } => {
+                write!(f, "the operation is not possible in the active mode {}", Numbered(*active))
+            }
             Self::ModeNotConfirmed { requested, active } => {
+                let (requested, active) = (Numbered(*requested), Numbered(*active));
                 write!(f, "timeout: the drive has not activated the mode {requested}; the active mode is {active}")
             }
             Self::Homing => f.write_str("homing error"),
@@ -128,6 +131,19 @@ impl<E: core::error::Error> core::error::Error for MotionError<E> {
     }
 }
 
+/// A mode that is shown with its number: `6 (homing)`. A mode without a name is shown as a number.
+pub(super) struct Numbered(pub Mode);
+
+impl fmt::Display for Numbered {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(mode) = self;
+        match mode {
+            Mode::Unknown(number) => number.fmt(f),
+            named => write!(f, "{} ({named})", named.raw()),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -142,7 +158,7 @@ mod tests {
         assert_eq!(text(fault), "the drive has a fault: state \"fault\", error code 0x8611");
         let disabled = Motion::NotEnabled { state: Some(State::SwitchedOn), status: 0x33 };
         assert_eq!(text(disabled), "the operation is not enabled: the drive is in the state \"switched on\"");
-        let refused = Motion::ModeNotConfirmed { requested: Mode::Homing, active: Mode::Other(-3) };
+        let refused = Motion::ModeNotConfirmed { requested: Mode::Homing, active: Mode::Unknown(-3) };
         assert_eq!(text(refused), "timeout: the drive has not activated the mode 6 (homing); the active mode is -3");
         assert_eq!(text(Motion::FollowingError { error: Some(-7) }), "following error: -7");
     }

@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn integers_keep_their_sign() {
-        assert_eq!((integer::<i8>(-3), integer::<u8>(253), integer::<Mode>(Mode::Other(-3))), (-3, 253, -3));
+        assert_eq!((integer::<i8>(-3), integer::<u8>(253), integer::<Mode>(Mode::Unknown(-3))), (-3, 253, -3));
         assert_eq!((integer::<Scaled<i32, 1, 100>>(-5), integer::<u32>(u32::MAX)), (-5, 0xFFFF_FFFF));
         assert_eq!((integer::<Int<24>>(-5), integer::<PerItem<i32, 60>>(i32::MIN)), (-5, i32::MIN.into()));
     }

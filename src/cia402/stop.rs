@@ -7,7 +7,7 @@ use super::drive::{enables, Drive};
 use super::error::MotionError;
 use super::objects::Objects;
 use super::settling::Settling;
-use super::state::State;
+use super::State;
 use crate::client::{AsyncClient, Client};
 use crate::remaining::Remaining;
 

@@ -3,6 +3,7 @@
 use super::objects::Objects;
 use super::state::State;
 use super::Drive;
+use crate::machine::MachineState;
 
 /// Returns the bits of the error register (0x1001) for an error code (CiA 301 7.2.7.1).
 const fn error_register(code: u16) -> u8 {
