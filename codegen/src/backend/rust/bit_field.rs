@@ -19,8 +19,8 @@ use crate::number::hex;
 /// A bit field, ready to be printed.
 pub(super) struct BitFieldModel {
     pub name: String,
-    /// True if a profile states the bit field.
-    pub is_of_profile: bool,
+    /// If a profile states the bit field, a sentence about the items that use it.
+    pub users: Option<String>,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     /// Data for the implementations of `Debug` and the number formats, if the options request `Debug`.
@@ -203,7 +203,7 @@ pub(super) fn model(
         views,
         fields,
         name: name.clone(),
-        is_of_profile: context.is_of_profile(position),
+        users: context.is_of_profile(position).then(|| context.links.users(position, DocModule::TYPES)),
     }
 }
 

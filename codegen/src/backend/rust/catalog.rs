@@ -6,7 +6,7 @@ use super::device_names::module_name;
 use super::ethercat::ModulePaths;
 use super::model::Model;
 use super::options::RustOptions;
-use super::{docs, header, print};
+use super::{docs, header, print, profiles};
 use crate::collections::{HashMap, HashSet};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
@@ -41,13 +41,13 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         [] => {}
         [device] => {
             let paths = paths(&modules, &names, "modules");
-            print::model(&mut code, Model::new(device, file, options, &paths));
+            print::model(&mut code, profiles::shared(Model::new(device, file, options, &paths)));
         }
         devices => {
             let paths = paths(&modules, &names, "super::modules");
             let mut definitions = Definitions::new(&options.runtime);
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
-                let mut model = Model::new(device, file, options, &paths);
+                let mut model = profiles::shared(Model::new(device, file, options, &paths));
                 definitions.share(&mut model, &name);
                 code.module(&title(&device.name, &name), &name, |code| print::model(code, model));
             }
@@ -58,7 +58,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         code.module(heading, "modules", |code| {
             let mut definitions = Definitions::new(&options.runtime);
             for ((_, module), name) in modules.iter().zip(&names) {
-                let mut model = Model::of_module(module, options);
+                let mut model = profiles::shared(Model::of_module(module, options));
                 definitions.share(&mut model, name);
                 code.module(&title(&module.name, name), name, |code| print::model(code, model));
             }

@@ -7,7 +7,7 @@ use super::ethercat::ModulePaths;
 use super::model::Model;
 use super::scope::Scope;
 use super::RustOptions;
-use super::{catalog, device_names, model, objects, print, quantity};
+use super::{catalog, device_names, model, objects, print, profiles, quantity};
 use crate::collections::HashMap;
 use crate::ir::{Catalog, Device, FileInfo, Item, ModuleId, Scale, SubmoduleId};
 
@@ -33,7 +33,7 @@ pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> 
 /// The text is the body of a module. It can be a separate file or be included in `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
     let mut code = Code::new(header(file), &options.runtime);
-    print::model(&mut code, Model::new(device, file, options, &ModulePaths::default()));
+    print::model(&mut code, profiles::shared(Model::new(device, file, options, &ModulePaths::default())));
     code.finish()
 }
 

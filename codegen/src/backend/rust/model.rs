@@ -31,7 +31,6 @@ use super::objects::{self, ObjectModel};
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::procedure::{self, ProcedureModel};
-use super::profiles;
 use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
@@ -138,7 +137,6 @@ impl Model {
         model.bus_facts.extend(composite::models(&context));
         model.configuration = configuration::model(device, options);
         model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
-        profiles::share(&mut model, &context);
         model
     }
 
@@ -148,7 +146,6 @@ impl Model {
         let mut model = Model::of_context(&context, options);
         model.title = docs::escape(&module.name);
         model.module = Some(ethercat::module(module, &model.pdos));
-        profiles::share(&mut model, &context);
         model
     }
 

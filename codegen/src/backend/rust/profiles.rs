@@ -5,8 +5,6 @@
 //! the files, run `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib backend::rust::profiles`.
 
 use super::code::Code;
-use super::context::Context;
-use super::links::DocModule;
 use super::model::Model;
 use super::reexport::{self, Home};
 use super::shareable::{self, Shareable};
@@ -15,19 +13,19 @@ use crate::collections::HashSet;
 /// The definitions in the runtime. Each line contains the first name of a definition and the hash of its code.
 const CONTAINED: &str = include_str!("profiles.txt");
 
-/// Replaces each definition of a profile with a re-export if the runtime contains a definition with the same code. The code can
-/// differ, for example because the options ask for other derived traits, or because of other names in the description.
-pub(super) fn share(model: &mut Model, context: &Context<'_>) {
-    let Model { types, code_tables, reexports, .. } = model;
+/// Returns `model` with a re-export in place of each definition of a profile for which the runtime contains a definition with the
+/// same code. The code can differ, for example because the options ask for other derived traits, or because of other names in the
+/// description.
+pub(super) fn shared(mut model: Model) -> Model {
+    let Model { types, code_tables, reexports, .. } = &mut model;
     let mut kept: HashSet<String> = HashSet::default();
     let mut is_kept = |definition: &Shareable<'_>| {
         let is_contained = definition.is_of_profile
             && !definition.used.iter().any(|name| kept.contains(*name))
             && is_line(&line(definition));
-        for (name, position) in &definition.names {
+        for (name, users) in &definition.names {
             if is_contained {
-                let users = position.map(|position| context.links.users(position, DocModule::TYPES));
-                reexport::add(reexports, definition.section, &Home::Runtime, name, users.unwrap_or_default());
+                reexport::add(reexports, definition.section, &Home::Runtime, name, (*users).to_owned());
             } else {
                 kept.insert((*name).to_owned());
             }
@@ -36,6 +34,7 @@ pub(super) fn share(model: &mut Model, context: &Context<'_>) {
     };
     shareable::retain_types(types, &mut is_kept);
     shareable::retain_code_tables(code_tables, &mut is_kept);
+    model
 }
 
 fn is_line(line: &str) -> bool {
@@ -58,6 +57,7 @@ fn hash(bytes: &[u8]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::backend::rust::context::Context;
     use crate::backend::rust::links::Links;
     use crate::backend::rust::located::Located;
     use crate::backend::rust::named::Types;

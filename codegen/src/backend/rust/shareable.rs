@@ -11,9 +11,9 @@ use super::reexport::Section;
 /// Definitions that are only shared together.
 pub(super) struct Shareable<'d> {
     pub section: Section,
-    /// The names of the definitions. If a definition is in the device's list of types, its name is given with its position in
-    /// the list.
-    pub names: Vec<(&'d str, Option<u32>)>,
+    /// The names of the definitions, each with a sentence about the items that use the definition. The sentence is empty for views,
+    /// states, commands and code tables.
+    pub names: Vec<(&'d str, &'d str)>,
     /// Names in the code that may refer to types.
     pub used: Vec<&'d str>,
     /// True if a profile states the definitions.
@@ -25,12 +25,12 @@ pub(super) struct Shareable<'d> {
 /// Removes the types for which `is_kept` returns false.
 pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable<'_>) -> bool) {
     let section = Section::Types;
-    types.enumerations.retain(|(at, enumeration)| {
+    types.enumerations.retain(|(_, enumeration)| {
         is_kept(&Shareable {
             section,
-            names: vec![(&enumeration.name, Some(*at))],
+            names: vec![(&enumeration.name, enumeration.users.as_deref().unwrap_or_default())],
             used: Vec::new(),
-            is_of_profile: enumeration.is_of_profile,
+            is_of_profile: enumeration.users.is_some(),
             write: &|code| print::types::enumeration(code, enumeration),
         })
     });
@@ -39,30 +39,30 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
     let machines = std::mem::take(&mut types.machines);
     let has_methods =
         |bits: &BitFieldModel| machines.iter().flat_map(MachineModel::bit_fields).any(|name| name == bits.name);
-    types.bit_fields.retain(|(at, bits)| {
+    types.bit_fields.retain(|(_, bits)| {
         has_methods(bits)
             || is_kept(&Shareable {
                 section,
-                names: bit_field_names(*at, bits).collect(),
+                names: bit_field_names(bits).collect(),
                 used: bits.type_names().collect(),
-                is_of_profile: bits.is_of_profile,
+                is_of_profile: bits.users.is_some(),
                 write: &|code| print::bit_field::write(code, bits),
             })
     });
     if machines.is_empty() {
         return;
     }
-    let with_methods: Vec<&(u32, BitFieldModel)> =
-        types.bit_fields.iter().filter(|(_, bits)| has_methods(bits)).collect();
-    let of_machines = machines.iter().flat_map(MachineModel::names).map(|name| (name, None));
+    let with_methods: Vec<&BitFieldModel> =
+        types.bit_fields.iter().map(|(_, bits)| bits).filter(|bits| has_methods(bits)).collect();
+    let of_machines = machines.iter().flat_map(MachineModel::names).map(|name| (name, ""));
     let shareable = Shareable {
         section,
-        names: of_machines.chain(with_methods.iter().flat_map(|(at, bits)| bit_field_names(*at, bits))).collect(),
-        used: with_methods.iter().flat_map(|(_, bits)| bits.type_names()).collect(),
+        names: of_machines.chain(with_methods.iter().flat_map(|bits| bit_field_names(bits))).collect(),
+        used: with_methods.iter().flat_map(|bits| bits.type_names()).collect(),
         is_of_profile: machines.iter().all(|machine| machine.is_of_profile)
-            && with_methods.iter().all(|(_, bits)| bits.is_of_profile),
+            && with_methods.iter().all(|bits| bits.users.is_some()),
         write: &|code| {
-            with_methods.iter().for_each(|(_, bits)| print::bit_field::write(code, bits));
+            with_methods.iter().for_each(|bits| print::bit_field::write(code, bits));
             machines.iter().for_each(|machine| print::types::machine(code, machine));
         },
     };
@@ -74,9 +74,9 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
 }
 
 /// Returns the names of a bit field and its views.
-fn bit_field_names(at: u32, bits: &BitFieldModel) -> impl Iterator<Item = (&str, Option<u32>)> {
-    let views = bits.views.iter().map(|view| (view.name.as_str(), None));
-    std::iter::once((bits.name.as_str(), Some(at))).chain(views)
+fn bit_field_names(bits: &BitFieldModel) -> impl Iterator<Item = (&str, &str)> {
+    let views = bits.views.iter().map(|view| (view.name.as_str(), ""));
+    std::iter::once((bits.name.as_str(), bits.users.as_deref().unwrap_or_default())).chain(views)
 }
 
 /// Removes the code tables for which `is_kept` returns false.
@@ -85,7 +85,7 @@ pub(super) fn retain_code_tables(tables: &mut Vec<CodeTableModel>, is_kept: &mut
         let ty = table.ty.as_ref().map(|ty| ty.name.as_str()).filter(|name| *name != table.name);
         is_kept(&Shareable {
             section: Section::Codes,
-            names: std::iter::once(table.name.as_str()).chain(ty).map(|name| (name, None)).collect(),
+            names: std::iter::once(table.name.as_str()).chain(ty).map(|name| (name, "")).collect(),
             used: Vec::new(),
             is_of_profile: table.is_of_profile,
             write: &|code| print::codes::table(code, table),
