@@ -71,4 +71,5 @@ pub use integer::{Absent, ReadInteger, WriteInteger};
 pub use objects::{Homing, Objects, Positioning, Velocity};
 pub use target::Target;
 
+#[doc(inline)]
 pub use crate::profiles::types::{ModesOfOperation as Mode, State};

@@ -1,6 +1,7 @@
 //! Version of the interface between generated code and this crate.
 
-/// Version of the interface that this crate provides to generated code.
+/// Version of the interface that this crate provides to generated code. The version increases if functions that generated code calls
+/// change, or if the code of a definition in [`profiles`](crate::profiles) changes, because generated code re-exports it.
 pub const VERSION: u32 = 1;
 
 /// Checks that generated code matches the interface version of this crate. Generated code calls this function in a

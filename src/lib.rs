@@ -74,7 +74,7 @@
 //! | `ethercat` | `clients::ethercat`: objects of EtherCAT SubDevices through `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus`; needs Rust 1.85 |
 //! | `serial` | `clients::serial`: messages over any byte stream of `embedded-io` |
-//! | `serde`, `defmt` | implementations of the traits of these crates for the value types of generated code |
+//! | `serde`, `defmt` | implementations of the traits of these crates for the types of the runtime that values of generated code contain |
 //!
 //! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) starts with an introduction. The book
 //! has a chapter for each format and each bus.
@@ -135,7 +135,7 @@ mod now;
 pub mod octets;
 pub mod pdo;
 #[rustfmt::skip]
-#[allow(clippy::indexing_slicing)] // The index of a name is the position of a variant.
+#[cfg_attr(not(test), expect(clippy::indexing_slicing, reason = "the index of a name is the position of a variant"))]
 pub mod profiles;
 pub mod profinet;
 mod quantity;

@@ -3,8 +3,8 @@
 
 //! Types, code tables and state machines of CiA 301, CiA 402 and CoE.
 //!
-//! Bindings re-export those that their device uses: the modules `types` and `codes` of a device contain these
-//! definitions and the definitions of the device itself.
+//! Bindings re-export those that their device uses: the modules `types` and `codes` of a device contain the
+//! re-exports and the definitions of the device itself.
 
 /// Enumerations of named values, and bit fields with named bits.
 pub mod types {
@@ -2927,19 +2927,19 @@ pub mod types {
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
-        /// Returns a view of the bits that are defined while object 0x6060 is "profile position" (1).
+        /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "profile position" (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6060 is "velocity" (2).
+        /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "velocity" (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6060 is "homing" (6).
+        /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "homing" (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6060 is "interpolated position" (7).
+        /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "interpolated position" (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -2986,7 +2986,7 @@ pub mod types {
             core::fmt::Binary::fmt(&self.0, f)
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while object 0x6060 is "profile position" (1).
+    /// View of [`Controlword`] with the bits that are defined while the requested mode of operation (0x6060) is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -3031,7 +3031,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while object 0x6060 is "velocity" (2).
+    /// View of [`Controlword`] with the bits that are defined while the requested mode of operation (0x6060) is "velocity" (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
@@ -3067,7 +3067,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while object 0x6060 is "homing" (6).
+    /// View of [`Controlword`] with the bits that are defined while the requested mode of operation (0x6060) is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -3085,7 +3085,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
     }
-    /// View of [`Controlword`] with the bits that are defined while object 0x6060 is "interpolated position" (7).
+    /// View of [`Controlword`] with the bits that are defined while the requested mode of operation (0x6060) is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
@@ -3265,35 +3265,35 @@ pub mod types {
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "profile position" (1).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "profile position" (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "profile velocity" (3).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "profile velocity" (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "homing" (6).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "homing" (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "interpolated position" (7).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "interpolated position" (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "cyclic synchronous position" (8).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous position" (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "cyclic synchronous velocity" (9).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous velocity" (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// Returns a view of the bits that are defined while object 0x6061 is "cyclic synchronous torque" (10).
+        /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous torque" (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -3337,7 +3337,7 @@ pub mod types {
             core::fmt::Binary::fmt(&self.0, f)
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "profile position" (1).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "profile position" (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
@@ -3364,7 +3364,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "profile velocity" (3).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "profile velocity" (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
@@ -3391,7 +3391,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "homing" (6).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "homing" (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -3418,7 +3418,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "interpolated position" (7).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "interpolated position" (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
@@ -3436,7 +3436,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "cyclic synchronous position" (8).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous position" (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
@@ -3463,7 +3463,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "cyclic synchronous velocity" (9).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous velocity" (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
@@ -3481,7 +3481,7 @@ pub mod types {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
     }
-    /// View of [`Statusword`] with the bits that are defined while object 0x6061 is "cyclic synchronous torque" (10).
+    /// View of [`Statusword`] with the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous torque" (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
@@ -5904,37 +5904,37 @@ pub mod types {
             core::fmt::Binary::fmt(&self.0, f)
         }
     }
-    /// States of drive, read from object 0x6041.
+    /// States of drive, read from the status word (0x6041).
     ///
     /// Definition from CiA 402, 10.1.1.
     ///
-    /// | State | Bits |
-    /// |---|---|
-    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` |
-    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` |
-    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` |
-    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` |
-    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` |
-    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
-    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
-    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
+    /// | State | Bits | Meaning |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` | The drive starts. |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` | The drive is ready for commands. The power stage is disabled. |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` | The power stage can be switched on. |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` | The power stage is ready. The motor has no torque. |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` | The drive controls the motor. |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` | The drive stops because of the command "quick stop", or has stopped. |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` | A fault has occurred, and the drive stops. |
+    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` | A fault has occurred, and the power stage is disabled. |
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
-        /// not ready to switch on: `xxxx xxxx x0xx 0000`.
+        /// not ready to switch on: `xxxx xxxx x0xx 0000`. The drive starts.
         NotReadyToSwitchOn,
-        /// switch on disabled: `xxxx xxxx x1xx 0000`.
+        /// switch on disabled: `xxxx xxxx x1xx 0000`. The drive is ready for commands. The power stage is disabled.
         SwitchOnDisabled,
-        /// ready to switch on: `xxxx xxxx x01x 0001`.
+        /// ready to switch on: `xxxx xxxx x01x 0001`. The power stage can be switched on.
         ReadyToSwitchOn,
-        /// switched on: `xxxx xxxx x01x 0011`.
+        /// switched on: `xxxx xxxx x01x 0011`. The power stage is ready. The motor has no torque.
         SwitchedOn,
-        /// operation enabled: `xxxx xxxx x01x 0111`.
+        /// operation enabled: `xxxx xxxx x01x 0111`. The drive controls the motor.
         OperationEnabled,
-        /// quick stop active: `xxxx xxxx x00x 0111`.
+        /// quick stop active: `xxxx xxxx x00x 0111`. The drive stops because of the command "quick stop", or has stopped.
         QuickStopActive,
-        /// fault reaction active: `xxxx xxxx x0xx 1111`.
+        /// fault reaction active: `xxxx xxxx x0xx 1111`. A fault has occurred, and the drive stops.
         FaultReactionActive,
-        /// fault: `xxxx xxxx x0xx 1000`.
+        /// fault: `xxxx xxxx x0xx 1000`. A fault has occurred, and the power stage is disabled.
         Fault,
     }
     impl State {
@@ -6117,7 +6117,7 @@ pub mod types {
             (command.mask() as u32, command.value() as u32)
         }
     }
-    /// Commands of drive, written to object 0x6040.
+    /// Commands of drive, written to the control word (0x6040).
     ///
     /// Definition from CiA 402, 10.1.1.
     ///

@@ -501,6 +501,14 @@ fn states_of_all_statuswords() {
 }
 
 #[test]
+fn every_number_is_a_mode() {
+    for number in i8::MIN..=i8::MAX {
+        assert_eq!(Mode::from_raw(number).raw(), number);
+    }
+    assert_eq!((Mode::from_raw(6), Mode::from_raw(-3)), (Mode::Homing, Mode::Unknown(-3)));
+}
+
+#[test]
 fn a_fault_during_a_move() {
     let mut rig = Rig::enabled(1).at(200, |rig| rig.fail(0x8611));
     rig.motion().move_to(Target::absolute(10_000), DEADLINE).unwrap();

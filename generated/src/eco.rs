@@ -6476,33 +6476,33 @@ pub mod types {
     ///
     /// Definition from CiA 402, 10.1.1.
     ///
-    /// | State | Bits |
-    /// |---|---|
-    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` |
-    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` |
-    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` |
-    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` |
-    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` |
-    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` |
-    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` |
-    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` |
+    /// | State | Bits | Meaning |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | `xxxx xxxx x0xx 0000` | The drive starts. |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | `xxxx xxxx x1xx 0000` | The drive is ready for commands. The power stage is disabled. |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | `xxxx xxxx x01x 0001` | The power stage can be switched on. |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | `xxxx xxxx x01x 0011` | The power stage is ready. The motor has no torque. |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | `xxxx xxxx x01x 0111` | The drive controls the motor. |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | `xxxx xxxx x00x 0111` | The drive stops because of the command "quick stop", or has stopped. |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | `xxxx xxxx x0xx 1111` | A fault has occurred, and the drive stops. |
+    /// | [`Fault`](Self::Fault) | `xxxx xxxx x0xx 1000` | A fault has occurred, and the power stage is disabled. |
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub enum State {
-        /// not ready to switch on: `xxxx xxxx x0xx 0000`.
+        /// not ready to switch on: `xxxx xxxx x0xx 0000`. The drive starts.
         NotReadyToSwitchOn,
-        /// switch on disabled: `xxxx xxxx x1xx 0000`.
+        /// switch on disabled: `xxxx xxxx x1xx 0000`. The drive is ready for commands. The power stage is disabled.
         SwitchOnDisabled,
-        /// ready to switch on: `xxxx xxxx x01x 0001`.
+        /// ready to switch on: `xxxx xxxx x01x 0001`. The power stage can be switched on.
         ReadyToSwitchOn,
-        /// switched on: `xxxx xxxx x01x 0011`.
+        /// switched on: `xxxx xxxx x01x 0011`. The power stage is ready. The motor has no torque.
         SwitchedOn,
-        /// operation enabled: `xxxx xxxx x01x 0111`.
+        /// operation enabled: `xxxx xxxx x01x 0111`. The drive controls the motor.
         OperationEnabled,
-        /// quick stop active: `xxxx xxxx x00x 0111`.
+        /// quick stop active: `xxxx xxxx x00x 0111`. The drive stops because of the command "quick stop", or has stopped.
         QuickStopActive,
-        /// fault reaction active: `xxxx xxxx x0xx 1111`.
+        /// fault reaction active: `xxxx xxxx x0xx 1111`. A fault has occurred, and the drive stops.
         FaultReactionActive,
-        /// fault: `xxxx xxxx x0xx 1000`.
+        /// fault: `xxxx xxxx x0xx 1000`. A fault has occurred, and the power stage is disabled.
         Fault,
     }
     impl State {

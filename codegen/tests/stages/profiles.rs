@@ -218,6 +218,11 @@ fn bindings_reexport_the_definitions_of_profiles() {
     }
     assert!(code.contains("pub use ::lexibus::profiles::codes::{"), "{code}");
     assert!(!code.contains("pub enum State") && !code.contains("pub enum DriveErrors"), "{code}");
+
+    let mut options = Options::default();
+    options.rust.runtime = "crate::rt".to_owned();
+    let code = rust(&drive(""), &options);
+    assert!(code.contains("pub use crate::rt::profiles::types::Controlword;"), "{code}");
 }
 
 #[test]

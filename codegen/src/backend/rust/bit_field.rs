@@ -19,8 +19,10 @@ use crate::number::hex;
 /// A bit field, ready to be printed.
 pub(super) struct BitFieldModel {
     pub name: String,
-    /// If a profile states the bit field, a sentence about the items that use it.
-    pub users: Option<String>,
+    /// True if a profile states the bit field.
+    pub is_of_profile: bool,
+    /// Sentence about the items that use the bit field. The sentence is also part of the documentation.
+    pub users: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     /// Data for the implementations of `Debug` and the number formats, if the options request `Debug`.
@@ -203,7 +205,8 @@ pub(super) fn model(
         views,
         fields,
         name: name.clone(),
-        users: context.is_of_profile(position).then(|| context.links.users(position, DocModule::TYPES)),
+        is_of_profile: context.is_of_profile(position),
+        users: context.links.users(position, DocModule::TYPES),
     }
 }
 

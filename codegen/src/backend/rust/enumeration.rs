@@ -18,8 +18,10 @@ use crate::names::{self, Case, NameRequest};
 /// An enumeration, ready to be printed.
 pub(super) struct EnumerationModel {
     pub name: String,
-    /// If a profile states the enumeration, a sentence about the items that use it.
-    pub users: Option<String>,
+    /// True if a profile states the enumeration.
+    pub is_of_profile: bool,
+    /// Sentence about the items that use the enumeration. The sentence is also part of the documentation.
+    pub users: String,
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
@@ -86,7 +88,8 @@ pub(super) fn model(
         complete: complete.then(|| hex((1_u32 << named.bits) - 1)),
         variants,
         name: named.name.clone(),
-        users: context.is_of_profile(position).then(|| context.links.users(position, DocModule::TYPES)),
+        is_of_profile: context.is_of_profile(position),
+        users: context.links.users(position, DocModule::TYPES),
     }
 }
 

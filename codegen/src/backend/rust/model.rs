@@ -108,7 +108,7 @@ pub(super) struct Model {
     pub table_feature: Option<String>,
     /// True if the file has several devices or modules, which may re-export definitions from each other.
     pub is_one_of_several: bool,
-    /// Definitions that the runtime, or earlier devices or modules of the file already contain.
+    /// Definitions that the runtime or an earlier device or module of the file contains.
     pub reexports: Vec<Reexport>,
 }
 

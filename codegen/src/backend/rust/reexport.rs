@@ -39,7 +39,8 @@ pub(super) struct Reexport {
     pub section: Section,
     pub home: Home,
     pub names: Vec<String>,
-    /// Documentation that precedes the documentation of the definition. The text is empty if there are several definitions.
+    /// Documentation that precedes the documentation of the definition. The text is empty if there are several definitions,
+    /// or if no item uses the definition.
     pub docs: String,
 }
 

@@ -8,7 +8,7 @@ use super::named::Types;
 use super::print;
 use super::reexport::Section;
 
-/// Definitions that are only shared together.
+/// Definitions that are shared only together.
 pub(super) struct Shareable<'d> {
     pub section: Section,
     /// The names of the definitions, each with a sentence about the items that use the definition. The sentence is empty for views,
@@ -28,9 +28,9 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
     types.enumerations.retain(|(_, enumeration)| {
         is_kept(&Shareable {
             section,
-            names: vec![(&enumeration.name, enumeration.users.as_deref().unwrap_or_default())],
+            names: vec![(&enumeration.name, &enumeration.users)],
             used: Vec::new(),
-            is_of_profile: enumeration.users.is_some(),
+            is_of_profile: enumeration.is_of_profile,
             write: &|code| print::types::enumeration(code, enumeration),
         })
     });
@@ -45,7 +45,7 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
                 section,
                 names: bit_field_names(bits).collect(),
                 used: bits.type_names().collect(),
-                is_of_profile: bits.users.is_some(),
+                is_of_profile: bits.is_of_profile,
                 write: &|code| print::bit_field::write(code, bits),
             })
     });
@@ -60,7 +60,7 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
         names: of_machines.chain(with_methods.iter().flat_map(|bits| bit_field_names(bits))).collect(),
         used: with_methods.iter().flat_map(|bits| bits.type_names()).collect(),
         is_of_profile: machines.iter().all(|machine| machine.is_of_profile)
-            && with_methods.iter().all(|bits| bits.users.is_some()),
+            && with_methods.iter().all(|bits| bits.is_of_profile),
         write: &|code| {
             with_methods.iter().for_each(|bits| print::bit_field::write(code, bits));
             machines.iter().for_each(|machine| print::types::machine(code, machine));
@@ -76,7 +76,7 @@ pub(super) fn retain_types(types: &mut Types, is_kept: &mut dyn FnMut(&Shareable
 /// Returns the names of a bit field and its views.
 fn bit_field_names(bits: &BitFieldModel) -> impl Iterator<Item = (&str, &str)> {
     let views = bits.views.iter().map(|view| (view.name.as_str(), ""));
-    std::iter::once((bits.name.as_str(), bits.users.as_deref().unwrap_or_default())).chain(views)
+    std::iter::once((bits.name.as_str(), bits.users.as_str())).chain(views)
 }
 
 /// Removes the code tables for which `is_kept` returns false.
