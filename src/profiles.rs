@@ -71,6 +71,7 @@ pub mod types {
             Self::CyclicSynchronousTorqueWithAngle,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
                 0 => Self::NoMode,
@@ -88,6 +89,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i8 {
             match self {
                 Self::NoMode => 0,
@@ -107,30 +109,36 @@ pub mod types {
     }
     impl rt::Enumeration for ModesOfOperation {
         type Base = i8;
+        #[inline]
         fn from_native(native: i8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i8 {
             self.raw()
         }
     }
     impl core::convert::From<ModesOfOperation> for i8 {
+        #[inline]
         fn from(value: ModesOfOperation) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i8> for ModesOfOperation {
+        #[inline]
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for ModesOfOperation {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for ModesOfOperation {}
     impl core::hash::Hash for ModesOfOperation {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -198,6 +206,7 @@ pub mod types {
             Self::QuickStop,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::NoAction,
@@ -208,6 +217,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::NoAction => 0,
@@ -220,30 +230,36 @@ pub mod types {
     }
     impl rt::Enumeration for AbortConnectionOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<AbortConnectionOption> for i16 {
+        #[inline]
         fn from(value: AbortConnectionOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for AbortConnectionOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for AbortConnectionOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for AbortConnectionOption {}
     impl core::hash::Hash for AbortConnectionOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -321,6 +337,7 @@ pub mod types {
             Self::VoltageLimitAndHold,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::DisableDrive,
@@ -336,6 +353,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::DisableDrive => 0,
@@ -353,30 +371,36 @@ pub mod types {
     }
     impl rt::Enumeration for QuickStopOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<QuickStopOption> for i16 {
+        #[inline]
         fn from(value: QuickStopOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for QuickStopOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for QuickStopOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for QuickStopOption {}
     impl core::hash::Hash for QuickStopOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -428,6 +452,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 2] = [Self::DisableDrive, Self::SlowDownRamp];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::DisableDrive,
@@ -436,6 +461,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::DisableDrive => 0,
@@ -446,30 +472,36 @@ pub mod types {
     }
     impl rt::Enumeration for ShutdownOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<ShutdownOption> for i16 {
+        #[inline]
         fn from(value: ShutdownOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for ShutdownOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for ShutdownOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for ShutdownOption {}
     impl core::hash::Hash for ShutdownOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -514,6 +546,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 2] = [Self::DisableDrive, Self::SlowDownRamp];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::DisableDrive,
@@ -522,6 +555,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::DisableDrive => 0,
@@ -532,30 +566,36 @@ pub mod types {
     }
     impl rt::Enumeration for DisableOperationOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<DisableOperationOption> for i16 {
+        #[inline]
         fn from(value: DisableOperationOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for DisableOperationOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for DisableOperationOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for DisableOperationOption {}
     impl core::hash::Hash for DisableOperationOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -615,6 +655,7 @@ pub mod types {
             Self::VoltageLimit,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::DisableDrive,
@@ -626,6 +667,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::DisableDrive => 0,
@@ -639,30 +681,36 @@ pub mod types {
     }
     impl rt::Enumeration for HaltOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<HaltOption> for i16 {
+        #[inline]
         fn from(value: HaltOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for HaltOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for HaltOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for HaltOption {}
     impl core::hash::Hash for HaltOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -725,6 +773,7 @@ pub mod types {
             Self::VoltageLimit,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::DisableDrive,
@@ -736,6 +785,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::DisableDrive => 0,
@@ -749,30 +799,36 @@ pub mod types {
     }
     impl rt::Enumeration for FaultReactionOption {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<FaultReactionOption> for i16 {
+        #[inline]
         fn from(value: FaultReactionOption) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for FaultReactionOption {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for FaultReactionOption {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for FaultReactionOption {}
     impl core::hash::Hash for FaultReactionOption {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -831,6 +887,7 @@ pub mod types {
             Self::JerkLimitedRamp,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::LinearRamp,
@@ -841,6 +898,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::LinearRamp => 0,
@@ -853,30 +911,36 @@ pub mod types {
     }
     impl rt::Enumeration for MotionProfileType {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<MotionProfileType> for i16 {
+        #[inline]
         fn from(value: MotionProfileType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for MotionProfileType {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for MotionProfileType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for MotionProfileType {}
     impl core::hash::Hash for MotionProfileType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -928,6 +992,7 @@ pub mod types {
             Self::ActualPosition,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::LastTarget,
@@ -937,6 +1002,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::LastTarget => 0,
@@ -948,30 +1014,36 @@ pub mod types {
     }
     impl rt::Enumeration for PositioningOptionRelativeTo {
         type Base = rt::Uint<2>;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<PositioningOptionRelativeTo> for u8 {
+        #[inline]
         fn from(value: PositioningOptionRelativeTo) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for PositioningOptionRelativeTo {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for PositioningOptionRelativeTo {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for PositioningOptionRelativeTo {}
     impl core::hash::Hash for PositioningOptionRelativeTo {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1024,6 +1096,7 @@ pub mod types {
             Self::ShortestWay,
         ];
         /// Returns the variant for this number. Bits beyond the width of the enumeration are ignored.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw & 0x3 {
                 0 => Self::AsLinearAxis,
@@ -1033,6 +1106,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::AsLinearAxis => 0,
@@ -1044,25 +1118,30 @@ pub mod types {
     }
     impl rt::Enumeration for PositioningOptionRotaryAxisDirection {
         type Base = rt::Uint<2>;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<PositioningOptionRotaryAxisDirection> for u8 {
+        #[inline]
         fn from(value: PositioningOptionRotaryAxisDirection) -> Self {
             value.raw()
         }
     }
     impl core::cmp::PartialEq for PositioningOptionRotaryAxisDirection {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for PositioningOptionRotaryAxisDirection {}
     impl core::hash::Hash for PositioningOptionRotaryAxisDirection {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1244,6 +1323,7 @@ pub mod types {
             Self::Here,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
                 0 => Self::None,
@@ -1284,6 +1364,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i8 {
             match self {
                 Self::None => 0,
@@ -1326,30 +1407,36 @@ pub mod types {
     }
     impl rt::Enumeration for HomingMethod {
         type Base = i8;
+        #[inline]
         fn from_native(native: i8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i8 {
             self.raw()
         }
     }
     impl core::convert::From<HomingMethod> for i8 {
+        #[inline]
         fn from(value: HomingMethod) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i8> for HomingMethod {
+        #[inline]
         fn from(raw: i8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for HomingMethod {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for HomingMethod {}
     impl core::hash::Hash for HomingMethod {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1456,6 +1543,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 1] = [Self::Linear];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::Linear,
@@ -1463,6 +1551,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::Linear => 0,
@@ -1472,30 +1561,36 @@ pub mod types {
     }
     impl rt::Enumeration for InterpolationSubMode {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<InterpolationSubMode> for i16 {
+        #[inline]
         fn from(value: InterpolationSubMode) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for InterpolationSubMode {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for InterpolationSubMode {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for InterpolationSubMode {}
     impl core::hash::Hash for InterpolationSubMode {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1537,6 +1632,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 2] = [Self::PositionEncoder, Self::VelocityEncoder];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::PositionEncoder,
@@ -1545,6 +1641,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::PositionEncoder => 0,
@@ -1555,30 +1652,36 @@ pub mod types {
     }
     impl rt::Enumeration for VelocitySensor {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<VelocitySensor> for i16 {
+        #[inline]
         fn from(value: VelocitySensor) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for VelocitySensor {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for VelocitySensor {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for VelocitySensor {}
     impl core::hash::Hash for VelocitySensor {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1623,6 +1726,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 2] = [Self::LinearRamp, Self::SineSquaredRamp];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: i16) -> Self {
             match raw {
                 0 => Self::LinearRamp,
@@ -1631,6 +1735,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> i16 {
             match self {
                 Self::LinearRamp => 0,
@@ -1641,30 +1746,36 @@ pub mod types {
     }
     impl rt::Enumeration for TorqueProfileType {
         type Base = i16;
+        #[inline]
         fn from_native(native: i16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> i16 {
             self.raw()
         }
     }
     impl core::convert::From<TorqueProfileType> for i16 {
+        #[inline]
         fn from(value: TorqueProfileType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<i16> for TorqueProfileType {
+        #[inline]
         fn from(raw: i16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for TorqueProfileType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for TorqueProfileType {}
     impl core::hash::Hash for TorqueProfileType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1714,6 +1825,7 @@ pub mod types {
             Self::SourceSelectedBy0x60D0,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::Probe1,
@@ -1723,6 +1835,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::Probe1 => 0,
@@ -1734,30 +1847,36 @@ pub mod types {
     }
     impl rt::Enumeration for TouchProbeFunctionProbe1Source {
         type Base = rt::Uint<2>;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<TouchProbeFunctionProbe1Source> for u8 {
+        #[inline]
         fn from(value: TouchProbeFunctionProbe1Source) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for TouchProbeFunctionProbe1Source {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for TouchProbeFunctionProbe1Source {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for TouchProbeFunctionProbe1Source {}
     impl core::hash::Hash for TouchProbeFunctionProbe1Source {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1808,6 +1927,7 @@ pub mod types {
             Self::SourceSelectedBy0x60D0,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::Probe2,
@@ -1817,6 +1937,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::Probe2 => 0,
@@ -1828,30 +1949,36 @@ pub mod types {
     }
     impl rt::Enumeration for TouchProbeFunctionProbe2Source {
         type Base = rt::Uint<2>;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<TouchProbeFunctionProbe2Source> for u8 {
+        #[inline]
         fn from(value: TouchProbeFunctionProbe2Source) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for TouchProbeFunctionProbe2Source {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for TouchProbeFunctionProbe2Source {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for TouchProbeFunctionProbe2Source {}
     impl core::hash::Hash for TouchProbeFunctionProbe2Source {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -1938,6 +2065,7 @@ pub mod types {
             Self::TrapezoidalBrushless,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
                 0 => Self::NonStandard,
@@ -1956,6 +2084,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u16 {
             match self {
                 Self::NonStandard => 0,
@@ -1976,30 +2105,36 @@ pub mod types {
     }
     impl rt::Enumeration for MotorType {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.raw()
         }
     }
     impl core::convert::From<MotorType> for u16 {
+        #[inline]
         fn from(value: MotorType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u16> for MotorType {
+        #[inline]
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for MotorType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for MotorType {}
     impl core::hash::Hash for MotorType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2067,6 +2202,7 @@ pub mod types {
             Self::Inputs,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::Unused,
@@ -2078,6 +2214,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::Unused => 0,
@@ -2091,30 +2228,36 @@ pub mod types {
     }
     impl rt::Enumeration for SyncManagerType {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<SyncManagerType> for u8 {
+        #[inline]
         fn from(value: SyncManagerType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for SyncManagerType {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for SyncManagerType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for SyncManagerType {}
     impl core::hash::Hash for SyncManagerType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2175,6 +2318,7 @@ pub mod types {
             Self::SyncManager2,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
                 0 => Self::FreeRun,
@@ -2186,6 +2330,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u16 {
             match self {
                 Self::FreeRun => 0,
@@ -2199,30 +2344,36 @@ pub mod types {
     }
     impl rt::Enumeration for SyncType {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.raw()
         }
     }
     impl core::convert::From<SyncType> for u16 {
+        #[inline]
         fn from(value: SyncType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u16> for SyncType {
+        #[inline]
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for SyncType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for SyncType {}
     impl core::hash::Hash for SyncType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2268,6 +2419,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 2] = [Self::Stopped, Self::Started];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             match raw {
                 0 => Self::Stopped,
@@ -2276,6 +2428,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u16 {
             match self {
                 Self::Stopped => 0,
@@ -2286,30 +2439,36 @@ pub mod types {
     }
     impl rt::Enumeration for CycleTimeMeasurement {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.raw()
         }
     }
     impl core::convert::From<CycleTimeMeasurement> for u16 {
+        #[inline]
         fn from(value: CycleTimeMeasurement) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u16> for CycleTimeMeasurement {
+        #[inline]
         fn from(raw: u16) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for CycleTimeMeasurement {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for CycleTimeMeasurement {}
     impl core::hash::Hash for CycleTimeMeasurement {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2367,6 +2526,7 @@ pub mod types {
             Self::Save,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             match raw {
                 0 => Self::Never,
@@ -2378,6 +2538,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u32 {
             match self {
                 Self::Never => 0,
@@ -2391,30 +2552,36 @@ pub mod types {
     }
     impl rt::Enumeration for StoreParameters {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.raw()
         }
     }
     impl core::convert::From<StoreParameters> for u32 {
+        #[inline]
         fn from(value: StoreParameters) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u32> for StoreParameters {
+        #[inline]
         fn from(raw: u32) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for StoreParameters {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for StoreParameters {}
     impl core::hash::Hash for StoreParameters {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2463,6 +2630,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 3] = [Self::Never, Self::OnCommand, Self::Load];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             match raw {
                 0 => Self::Never,
@@ -2472,6 +2640,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u32 {
             match self {
                 Self::Never => 0,
@@ -2483,30 +2652,36 @@ pub mod types {
     }
     impl rt::Enumeration for RestoreParameters {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.raw()
         }
     }
     impl core::convert::From<RestoreParameters> for u32 {
+        #[inline]
         fn from(value: RestoreParameters) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u32> for RestoreParameters {
+        #[inline]
         fn from(raw: u32) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for RestoreParameters {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for RestoreParameters {}
     impl core::hash::Hash for RestoreParameters {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2555,6 +2730,7 @@ pub mod types {
         /// All values with names.
         pub const ALL: [Self; 3] = [Self::PreOperational, Self::NoChange, Self::Stopped];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::PreOperational,
@@ -2564,6 +2740,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::PreOperational => 0,
@@ -2575,30 +2752,36 @@ pub mod types {
     }
     impl rt::Enumeration for ErrorBehavior {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<ErrorBehavior> for u8 {
+        #[inline]
         fn from(value: ErrorBehavior) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for ErrorBehavior {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for ErrorBehavior {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for ErrorBehavior {}
     impl core::hash::Hash for ErrorBehavior {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2649,6 +2832,7 @@ pub mod types {
             Self::EventOfTheProfile,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 254 => Self::EventOfTheManufacturer,
@@ -2657,6 +2841,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::EventOfTheManufacturer => 254,
@@ -2667,30 +2852,36 @@ pub mod types {
     }
     impl rt::Enumeration for ReceiveType {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<ReceiveType> for u8 {
+        #[inline]
         fn from(value: ReceiveType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for ReceiveType {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for ReceiveType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for ReceiveType {}
     impl core::hash::Hash for ReceiveType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2752,6 +2943,7 @@ pub mod types {
             Self::EventOfTheProfile,
         ];
         /// Returns the variant for this number.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             match raw {
                 0 => Self::SynchronousAcyclic,
@@ -2763,6 +2955,7 @@ pub mod types {
             }
         }
         /// Returns the number of the variant.
+        #[inline]
         pub const fn raw(self) -> u8 {
             match self {
                 Self::SynchronousAcyclic => 0,
@@ -2776,30 +2969,36 @@ pub mod types {
     }
     impl rt::Enumeration for TransmitType {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.raw()
         }
     }
     impl core::convert::From<TransmitType> for u8 {
+        #[inline]
         fn from(value: TransmitType) -> Self {
             value.raw()
         }
     }
     impl core::convert::From<u8> for TransmitType {
+        #[inline]
         fn from(raw: u8) -> Self {
             Self::from_raw(raw)
         }
     }
     impl core::cmp::PartialEq for TransmitType {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             self.raw() == other.raw()
         }
     }
     impl core::cmp::Eq for TransmitType {}
     impl core::hash::Hash for TransmitType {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&self.raw(), state);
         }
@@ -2853,93 +3052,114 @@ pub mod types {
     pub struct Controlword(u16);
     impl Controlword {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: switch on.
+        #[inline]
         pub const fn switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`switch_on`](Self::switch_on) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: enable voltage.
+        #[inline]
         pub const fn enable_voltage(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`enable_voltage`](Self::enable_voltage) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_voltage(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: quick stop. Active low: the flag is true if the bit is 0. 0 requests a quick stop.
+        #[inline]
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x4)
         }
         /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, !value))
         }
         /// Bit 3: enable operation.
+        #[inline]
         pub const fn enable_operation(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
         /// Returns a copy with [`enable_operation`](Self::enable_operation) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_operation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 7: fault reset. The device reacts to the rising edge.
+        #[inline]
         pub const fn fault_reset(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
         /// Returns a copy with [`fault_reset`](Self::fault_reset) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: halt. 1 stops the axis with the reaction that the halt option code (0x605D) selects.
+        #[inline]
         pub const fn halt(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
         /// Returns a copy with [`halt`](Self::halt) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_halt(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bits 15 to 11: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xF800) as u8
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF800, value as u16))
         }
         /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "profile position" (1).
+        #[inline]
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
         /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "velocity" (2).
+        #[inline]
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
         /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "homing" (6).
+        #[inline]
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
         /// Returns a view of the bits that are defined while the requested mode of operation (0x6060) is "interpolated position" (7).
+        #[inline]
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -2947,18 +3167,22 @@ pub mod types {
         }
     }
     impl Default for Controlword {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for Controlword {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0 & !0x400
         }
+        #[inline]
         fn as_is(self) -> u16 {
             self.0
         }
@@ -2991,42 +3215,51 @@ pub mod types {
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
         /// Bit 4: new set-point. The device reacts to the rising edge. A rising edge makes the drive accept the target position.
+        #[inline]
         pub const fn new_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`new_set_point`](Self::new_set_point) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_new_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: change set immediately. 1: the new set-point replaces the active set-point. 0: the axis first completes the move to the active set-point.
+        #[inline]
         pub const fn change_set_immediately(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
         /// Returns a copy with [`change_set_immediately`](Self::change_set_immediately) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_change_set_immediately(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: relative. 1: the target position is relative. 0: the target position is absolute.
+        #[inline]
         pub const fn relative(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
         /// Returns a copy with [`relative`](Self::relative) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_relative(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 9: change on set-point. 1: the axis passes the active set-point at the profile velocity, then moves to the new set-point. The bit has this effect only while bit 5 is 0.
+        #[inline]
         pub const fn change_on_set_point(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
         /// Returns a copy with [`change_on_set_point`](Self::change_on_set_point) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_change_on_set_point(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
@@ -3036,33 +3269,40 @@ pub mod types {
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
         /// Bit 4: enable ramp.
+        #[inline]
         pub const fn enable_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`enable_ramp`](Self::enable_ramp) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: unlock ramp.
+        #[inline]
         pub const fn unlock_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
         /// Returns a copy with [`unlock_ramp`](Self::unlock_ramp) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_unlock_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: reference ramp.
+        #[inline]
         pub const fn reference_ramp(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
         /// Returns a copy with [`reference_ramp`](Self::reference_ramp) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_reference_ramp(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
@@ -3072,15 +3312,18 @@ pub mod types {
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
         /// Bit 4: homing start. 1 starts homing. 0 aborts homing.
+        #[inline]
         pub const fn homing_start(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`homing_start`](Self::homing_start) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_homing_start(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
@@ -3090,15 +3333,18 @@ pub mod types {
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn controlword(self) -> Controlword {
             Controlword(self.0)
         }
         /// Bit 4: enable interpolation.
+        #[inline]
         pub const fn enable_interpolation(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`enable_interpolation`](Self::enable_interpolation) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_interpolation(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
@@ -3137,163 +3383,199 @@ pub mod types {
     pub struct Statusword(u16);
     impl Statusword {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: ready to switch on.
+        #[inline]
         pub const fn ready_to_switch_on(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`ready_to_switch_on`](Self::ready_to_switch_on) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: switched on.
+        #[inline]
         pub const fn switched_on(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`switched_on`](Self::switched_on) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_switched_on(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: operation enabled.
+        #[inline]
         pub const fn operation_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
         /// Returns a copy with [`operation_enabled`](Self::operation_enabled) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_operation_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: fault.
+        #[inline]
         pub const fn fault(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
         /// Returns a copy with [`fault`](Self::fault) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_fault(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: voltage enabled. The power stage is supplied with voltage.
+        #[inline]
         pub const fn voltage_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`voltage_enabled`](Self::voltage_enabled) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_voltage_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: quick stop. Active low: the flag is true if the bit is 0. 0 while a quick stop is requested.
+        #[inline]
         pub const fn quick_stop(self) -> bool {
             !rt::bits16::flag(self.0, 0x20)
         }
         /// Returns a copy with [`quick_stop`](Self::quick_stop) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_quick_stop(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, !value))
         }
         /// Bit 6: switch on disabled.
+        #[inline]
         pub const fn switch_on_disabled(self) -> bool {
             rt::bits16::flag(self.0, 0x40)
         }
         /// Returns a copy with [`switch_on_disabled`](Self::switch_on_disabled) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_switch_on_disabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: warning.
+        #[inline]
         pub const fn warning(self) -> bool {
             rt::bits16::flag(self.0, 0x80)
         }
         /// Returns a copy with [`warning`](Self::warning) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_warning(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific_8(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
         /// Returns a copy with [`manufacturer_specific_8`](Self::manufacturer_specific_8) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: remote. The drive executes the commands of the control word.
+        #[inline]
         pub const fn remote(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
         /// Returns a copy with [`remote`](Self::remote) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_remote(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: target reached. The axis has reached its target. In the cyclic modes, the bit is reserved or toggles in each cycle.
+        #[inline]
         pub const fn target_reached(self) -> bool {
             rt::bits16::flag(self.0, 0x400)
         }
         /// Returns a copy with [`target_reached`](Self::target_reached) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_target_reached(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bit 11: internal limit active. An internal limit prevents the drive from following the set-point.
+        #[inline]
         pub const fn internal_limit_active(self) -> bool {
             rt::bits16::flag(self.0, 0x800)
         }
         /// Returns a copy with [`internal_limit_active`](Self::internal_limit_active) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x800, value))
         }
         /// Bits 15 to 14: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific_14(self) -> u8 {
             rt::bits16::field(self.0, 0xC000) as u8
         }
         /// Returns a copy with [`manufacturer_specific_14`](Self::manufacturer_specific_14) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "profile position" (1).
+        #[inline]
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "profile velocity" (3).
+        #[inline]
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "homing" (6).
+        #[inline]
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "interpolated position" (7).
+        #[inline]
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous position" (8).
+        #[inline]
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous velocity" (9).
+        #[inline]
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
         /// Returns a view of the bits that are defined while the active mode of operation (0x6061) is "cyclic synchronous torque" (10).
+        #[inline]
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -3301,15 +3583,18 @@ pub mod types {
         }
     }
     impl Default for Statusword {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for Statusword {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -3342,24 +3627,29 @@ pub mod types {
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: set-point acknowledge.
+        #[inline]
         pub const fn set_point_acknowledge(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`set_point_acknowledge`](Self::set_point_acknowledge) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: following error.
+        #[inline]
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
         /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
@@ -3369,24 +3659,29 @@ pub mod types {
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: speed zero.
+        #[inline]
         pub const fn speed_zero(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`speed_zero`](Self::speed_zero) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_speed_zero(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: max slippage error.
+        #[inline]
         pub const fn max_slippage_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
         /// Returns a copy with [`max_slippage_error`](Self::max_slippage_error) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_max_slippage_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
@@ -3396,24 +3691,29 @@ pub mod types {
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: homing attained.
+        #[inline]
         pub const fn homing_attained(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`homing_attained`](Self::homing_attained) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_homing_attained(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: homing error.
+        #[inline]
         pub const fn homing_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
         /// Returns a copy with [`homing_error`](Self::homing_error) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_homing_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
@@ -3423,15 +3723,18 @@ pub mod types {
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: interpolation active.
+        #[inline]
         pub const fn interpolation_active(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`interpolation_active`](Self::interpolation_active) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_interpolation_active(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
@@ -3441,24 +3744,29 @@ pub mod types {
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: follows command value.
+        #[inline]
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: following error.
+        #[inline]
         pub const fn following_error(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
         /// Returns a copy with [`following_error`](Self::following_error) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_following_error(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
@@ -3468,15 +3776,18 @@ pub mod types {
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: follows command value.
+        #[inline]
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
@@ -3486,15 +3797,18 @@ pub mod types {
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
         /// Returns the whole bit field.
+        #[inline]
         pub const fn statusword(self) -> Statusword {
             Statusword(self.0)
         }
         /// Bit 12: follows command value.
+        #[inline]
         pub const fn follows_command_value(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`follows_command_value`](Self::follows_command_value) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_follows_command_value(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
@@ -3524,104 +3838,127 @@ pub mod types {
     pub struct SupportedDriveModes(u32);
     impl SupportedDriveModes {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bit 0: profile position.
+        #[inline]
         pub const fn profile_position(self) -> bool {
             rt::bits32::flag(self.0, 0x1)
         }
         /// Returns a copy with [`profile_position`](Self::profile_position) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_profile_position(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: velocity.
+        #[inline]
         pub const fn velocity(self) -> bool {
             rt::bits32::flag(self.0, 0x2)
         }
         /// Returns a copy with [`velocity`](Self::velocity) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_velocity(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: profile velocity.
+        #[inline]
         pub const fn profile_velocity(self) -> bool {
             rt::bits32::flag(self.0, 0x4)
         }
         /// Returns a copy with [`profile_velocity`](Self::profile_velocity) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_profile_velocity(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: profile torque.
+        #[inline]
         pub const fn profile_torque(self) -> bool {
             rt::bits32::flag(self.0, 0x8)
         }
         /// Returns a copy with [`profile_torque`](Self::profile_torque) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_profile_torque(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bit 5: homing.
+        #[inline]
         pub const fn homing(self) -> bool {
             rt::bits32::flag(self.0, 0x20)
         }
         /// Returns a copy with [`homing`](Self::homing) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_homing(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20, value))
         }
         /// Bit 6: interpolated position.
+        #[inline]
         pub const fn interpolated_position(self) -> bool {
             rt::bits32::flag(self.0, 0x40)
         }
         /// Returns a copy with [`interpolated_position`](Self::interpolated_position) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_interpolated_position(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: cyclic synchronous position.
+        #[inline]
         pub const fn cyclic_synchronous_position(self) -> bool {
             rt::bits32::flag(self.0, 0x80)
         }
         /// Returns a copy with [`cyclic_synchronous_position`](Self::cyclic_synchronous_position) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_cyclic_synchronous_position(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80, value))
         }
         /// Bit 8: cyclic synchronous velocity.
+        #[inline]
         pub const fn cyclic_synchronous_velocity(self) -> bool {
             rt::bits32::flag(self.0, 0x100)
         }
         /// Returns a copy with [`cyclic_synchronous_velocity`](Self::cyclic_synchronous_velocity) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_cyclic_synchronous_velocity(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: cyclic synchronous torque.
+        #[inline]
         pub const fn cyclic_synchronous_torque(self) -> bool {
             rt::bits32::flag(self.0, 0x200)
         }
         /// Returns a copy with [`cyclic_synchronous_torque`](Self::cyclic_synchronous_torque) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_cyclic_synchronous_torque(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: cyclic synchronous torque with angle.
+        #[inline]
         pub const fn cyclic_synchronous_torque_with_angle(self) -> bool {
             rt::bits32::flag(self.0, 0x400)
         }
         /// Returns a copy with [`cyclic_synchronous_torque_with_angle`](Self::cyclic_synchronous_torque_with_angle) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_cyclic_synchronous_torque_with_angle(
             self,
             value: bool,
@@ -3629,28 +3966,34 @@ pub mod types {
             Self(rt::bits32::with_flag(self.0, 0x400, value))
         }
         /// Bits 31 to 16: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for SupportedDriveModes {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for SupportedDriveModes {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0 & !0xF810
         }
+        #[inline]
         fn as_is(self) -> u32 {
             self.0
         }
@@ -3690,46 +4033,56 @@ pub mod types {
     pub struct Polarity(u8);
     impl Polarity {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u8 {
             self.0
         }
         /// Bit 6: invert velocity.
+        #[inline]
         pub const fn invert_velocity(self) -> bool {
             rt::bits8::flag(self.0, 0x40)
         }
         /// Returns a copy with [`invert_velocity`](Self::invert_velocity) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_invert_velocity(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x40, value))
         }
         /// Bit 7: invert position.
+        #[inline]
         pub const fn invert_position(self) -> bool {
             rt::bits8::flag(self.0, 0x80)
         }
         /// Returns a copy with [`invert_position`](Self::invert_position) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_invert_position(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for Polarity {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for Polarity {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.0
         }
@@ -3759,18 +4112,21 @@ pub mod types {
     }
     impl core::ops::BitOr for Polarity {
         type Output = Self;
+        #[inline]
         fn bitor(self, other: Self) -> Self {
             Self(self.0 | other.0)
         }
     }
     impl core::ops::BitAnd for Polarity {
         type Output = Self;
+        #[inline]
         fn bitand(self, other: Self) -> Self {
             Self(self.0 & other.0)
         }
     }
     impl core::ops::Not for Polarity {
         type Output = Self;
+        #[inline]
         fn not(self) -> Self {
             Self(self.0 ^ 0xC0)
         }
@@ -3791,45 +4147,55 @@ pub mod types {
     pub struct PositioningOption(u16);
     impl PositioningOption {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bits 1 to 0: relative to.
+        #[inline]
         pub const fn relative_to(self) -> PositioningOptionRelativeTo {
             PositioningOptionRelativeTo::from_raw(rt::bits16::field(self.0, 0x3) as u8)
         }
         /// Returns a copy with [`relative_to`](Self::relative_to) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_relative_to(self, value: PositioningOptionRelativeTo) -> Self {
             Self(rt::bits16::with_field(self.0, 0x3, value.raw() as u16))
         }
         /// Bits 3 to 2: change immediately option.
+        #[inline]
         pub const fn change_immediately_option(self) -> u8 {
             rt::bits16::field(self.0, 0xC) as u8
         }
         /// Returns a copy with [`change_immediately_option`](Self::change_immediately_option) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_change_immediately_option(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC, value as u16))
         }
         /// Bits 5 to 4: request response option.
+        #[inline]
         pub const fn request_response_option(self) -> u8 {
             rt::bits16::field(self.0, 0x30) as u8
         }
         /// Returns a copy with [`request_response_option`](Self::request_response_option) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_request_response_option(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0x30, value as u16))
         }
         /// Bits 7 to 6: rotary axis direction.
+        #[inline]
         pub const fn rotary_axis_direction(
             self,
         ) -> PositioningOptionRotaryAxisDirection {
@@ -3839,6 +4205,7 @@ pub mod types {
         }
         /// Returns a copy with [`rotary_axis_direction`](Self::rotary_axis_direction) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_rotary_axis_direction(
             self,
             value: PositioningOptionRotaryAxisDirection,
@@ -3846,34 +4213,41 @@ pub mod types {
             Self(rt::bits16::with_field(self.0, 0xC0, value.raw() as u16))
         }
         /// Bits 11 to 8: interpolation option.
+        #[inline]
         pub const fn interpolation_option(self) -> u8 {
             rt::bits16::field(self.0, 0xF00) as u8
         }
         /// Returns a copy with [`interpolation_option`](Self::interpolation_option) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_interpolation_option(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xF00, value as u16))
         }
         /// Bit 15: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> bool {
             rt::bits16::flag(self.0, 0x8000)
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8000, value))
         }
     }
     impl Default for PositioningOption {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for PositioningOption {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -3928,36 +4302,44 @@ pub mod types {
     pub struct TouchProbeFunction(u16);
     impl TouchProbeFunction {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: enable probe 1.
+        #[inline]
         pub const fn enable_probe_1(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`enable_probe_1`](Self::enable_probe_1) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_probe_1(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: probe 1 continuous. 1: the touch probe captures the position at every trigger event. 0: the touch probe captures the position only at the first trigger event.
+        #[inline]
         pub const fn probe_1_continuous(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`probe_1_continuous`](Self::probe_1_continuous) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_continuous(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bits 3 to 2: probe 1 source.
+        #[inline]
         pub const fn probe_1_source(self) -> TouchProbeFunctionProbe1Source {
             TouchProbeFunctionProbe1Source::from_raw(
                 rt::bits16::field(self.0, 0xC) as u8,
@@ -3965,6 +4347,7 @@ pub mod types {
         }
         /// Returns a copy with [`probe_1_source`](Self::probe_1_source) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_source(
             self,
             value: TouchProbeFunctionProbe1Source,
@@ -3972,51 +4355,62 @@ pub mod types {
             Self(rt::bits16::with_field(self.0, 0xC, value.raw() as u16))
         }
         /// Bit 4: probe 1 at positive edge.
+        #[inline]
         pub const fn probe_1_at_positive_edge(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`probe_1_at_positive_edge`](Self::probe_1_at_positive_edge) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_at_positive_edge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: probe 1 at negative edge.
+        #[inline]
         pub const fn probe_1_at_negative_edge(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
         /// Returns a copy with [`probe_1_at_negative_edge`](Self::probe_1_at_negative_edge) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_at_negative_edge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
         /// Bits 7 to 6: probe 1 manufacturer specific.
+        #[inline]
         pub const fn probe_1_manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xC0) as u8
         }
         /// Returns a copy with [`probe_1_manufacturer_specific`](Self::probe_1_manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC0, value as u16))
         }
         /// Bit 8: enable probe 2.
+        #[inline]
         pub const fn enable_probe_2(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
         /// Returns a copy with [`enable_probe_2`](Self::enable_probe_2) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_enable_probe_2(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: probe 2 continuous. 1: the touch probe captures the position at every trigger event. 0: the touch probe captures the position only at the first trigger event.
+        #[inline]
         pub const fn probe_2_continuous(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
         /// Returns a copy with [`probe_2_continuous`](Self::probe_2_continuous) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_continuous(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bits 11 to 10: probe 2 source.
+        #[inline]
         pub const fn probe_2_source(self) -> TouchProbeFunctionProbe2Source {
             TouchProbeFunctionProbe2Source::from_raw(
                 rt::bits16::field(self.0, 0xC00) as u8,
@@ -4024,6 +4418,7 @@ pub mod types {
         }
         /// Returns a copy with [`probe_2_source`](Self::probe_2_source) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_source(
             self,
             value: TouchProbeFunctionProbe2Source,
@@ -4031,43 +4426,52 @@ pub mod types {
             Self(rt::bits16::with_field(self.0, 0xC00, value.raw() as u16))
         }
         /// Bit 12: probe 2 at positive edge.
+        #[inline]
         pub const fn probe_2_at_positive_edge(self) -> bool {
             rt::bits16::flag(self.0, 0x1000)
         }
         /// Returns a copy with [`probe_2_at_positive_edge`](Self::probe_2_at_positive_edge) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_at_positive_edge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1000, value))
         }
         /// Bit 13: probe 2 at negative edge.
+        #[inline]
         pub const fn probe_2_at_negative_edge(self) -> bool {
             rt::bits16::flag(self.0, 0x2000)
         }
         /// Returns a copy with [`probe_2_at_negative_edge`](Self::probe_2_at_negative_edge) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_at_negative_edge(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2000, value))
         }
         /// Bits 15 to 14: probe 2 manufacturer specific.
+        #[inline]
         pub const fn probe_2_manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xC000) as u8
         }
         /// Returns a copy with [`probe_2_manufacturer_specific`](Self::probe_2_manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
     }
     impl Default for TouchProbeFunction {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for TouchProbeFunction {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -4118,100 +4522,122 @@ pub mod types {
     pub struct TouchProbeStatus(u16);
     impl TouchProbeStatus {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: probe 1 enabled.
+        #[inline]
         pub const fn probe_1_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`probe_1_enabled`](Self::probe_1_enabled) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: probe 1 positive edge stored.
+        #[inline]
         pub const fn probe_1_positive_edge_stored(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`probe_1_positive_edge_stored`](Self::probe_1_positive_edge_stored) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_positive_edge_stored(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: probe 1 negative edge stored.
+        #[inline]
         pub const fn probe_1_negative_edge_stored(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
         /// Returns a copy with [`probe_1_negative_edge_stored`](Self::probe_1_negative_edge_stored) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_negative_edge_stored(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bits 7 to 6: probe 1 manufacturer specific.
+        #[inline]
         pub const fn probe_1_manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xC0) as u8
         }
         /// Returns a copy with [`probe_1_manufacturer_specific`](Self::probe_1_manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_1_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC0, value as u16))
         }
         /// Bit 8: probe 2 enabled.
+        #[inline]
         pub const fn probe_2_enabled(self) -> bool {
             rt::bits16::flag(self.0, 0x100)
         }
         /// Returns a copy with [`probe_2_enabled`](Self::probe_2_enabled) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_enabled(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x100, value))
         }
         /// Bit 9: probe 2 positive edge stored.
+        #[inline]
         pub const fn probe_2_positive_edge_stored(self) -> bool {
             rt::bits16::flag(self.0, 0x200)
         }
         /// Returns a copy with [`probe_2_positive_edge_stored`](Self::probe_2_positive_edge_stored) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_positive_edge_stored(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x200, value))
         }
         /// Bit 10: probe 2 negative edge stored.
+        #[inline]
         pub const fn probe_2_negative_edge_stored(self) -> bool {
             rt::bits16::flag(self.0, 0x400)
         }
         /// Returns a copy with [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_negative_edge_stored(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x400, value))
         }
         /// Bits 15 to 14: probe 2 manufacturer specific.
+        #[inline]
         pub const fn probe_2_manufacturer_specific(self) -> u8 {
             rt::bits16::field(self.0, 0xC000) as u8
         }
         /// Returns a copy with [`probe_2_manufacturer_specific`](Self::probe_2_manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_probe_2_manufacturer_specific(self, value: u8) -> Self {
             Self(rt::bits16::with_field(self.0, 0xC000, value as u16))
         }
     }
     impl Default for TouchProbeStatus {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for TouchProbeStatus {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -4254,73 +4680,89 @@ pub mod types {
     pub struct DigitalInputs(u32);
     impl DigitalInputs {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bit 0: negative limit switch.
+        #[inline]
         pub const fn negative_limit_switch(self) -> bool {
             rt::bits32::flag(self.0, 0x1)
         }
         /// Returns a copy with [`negative_limit_switch`](Self::negative_limit_switch) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_negative_limit_switch(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: positive limit switch.
+        #[inline]
         pub const fn positive_limit_switch(self) -> bool {
             rt::bits32::flag(self.0, 0x2)
         }
         /// Returns a copy with [`positive_limit_switch`](Self::positive_limit_switch) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_positive_limit_switch(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: home switch.
+        #[inline]
         pub const fn home_switch(self) -> bool {
             rt::bits32::flag(self.0, 0x4)
         }
         /// Returns a copy with [`home_switch`](Self::home_switch) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_home_switch(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: interlock.
+        #[inline]
         pub const fn interlock(self) -> bool {
             rt::bits32::flag(self.0, 0x8)
         }
         /// Returns a copy with [`interlock`](Self::interlock) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_interlock(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x8, value))
         }
         /// Bits 31 to 16: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for DigitalInputs {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for DigitalInputs {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -4360,46 +4802,56 @@ pub mod types {
     pub struct DigitalOutputs(u32);
     impl DigitalOutputs {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bit 0: brake. 1 applies the holding brake.
+        #[inline]
         pub const fn brake(self) -> bool {
             rt::bits32::flag(self.0, 0x1)
         }
         /// Returns a copy with [`brake`](Self::brake) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_brake(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x1, value))
         }
         /// Bits 31 to 16: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for DigitalOutputs {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for DigitalOutputs {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -4443,58 +4895,71 @@ pub mod types {
     pub struct SiUnit(u32);
     impl SiUnit {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 15 to 8: denominator.
+        #[inline]
         pub const fn denominator(self) -> u8 {
             rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// Returns a copy with [`denominator`](Self::denominator) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_denominator(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 23 to 16: numerator.
+        #[inline]
         pub const fn numerator(self) -> u8 {
             rt::bits32::field(self.0, 0xFF0000) as u8
         }
         /// Returns a copy with [`numerator`](Self::numerator) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_numerator(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF0000, value as u32))
         }
         /// Bits 31 to 24: prefix. Prefix of the unit, as a signed exponent of 10.
+        #[inline]
         pub const fn prefix(self) -> u8 {
             rt::bits32::field(self.0, 0xFF000000) as u8
         }
         /// Returns a copy with [`prefix`](Self::prefix) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_prefix(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF000000, value as u32))
         }
     }
     impl Default for SiUnit {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for SiUnit {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0 & !0xFF
         }
+        #[inline]
         fn as_is(self) -> u32 {
             self.0
         }
@@ -4539,73 +5004,89 @@ pub mod types {
     pub struct SupportedSyncTypes(u16);
     impl SupportedSyncTypes {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: free run.
+        #[inline]
         pub const fn free_run(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`free_run`](Self::free_run) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_free_run(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: sync manager.
+        #[inline]
         pub const fn sync_manager(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`sync_manager`](Self::sync_manager) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_sync_manager(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: SYNC0.
+        #[inline]
         pub const fn sync0(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
         /// Returns a copy with [`sync0`](Self::sync0) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_sync0(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: SYNC1.
+        #[inline]
         pub const fn sync1(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
         /// Returns a copy with [`sync1`](Self::sync1) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_sync1(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 14: dynamic times. The times in objects 0x1C32 and 0x1C33 depend on the configuration, and the slave can measure them.
+        #[inline]
         pub const fn dynamic_times(self) -> bool {
             rt::bits16::flag(self.0, 0x4000)
         }
         /// Returns a copy with [`dynamic_times`](Self::dynamic_times) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_dynamic_times(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4000, value))
         }
     }
     impl Default for SupportedSyncTypes {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for SupportedSyncTypes {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -4635,18 +5116,21 @@ pub mod types {
     }
     impl core::ops::BitOr for SupportedSyncTypes {
         type Output = Self;
+        #[inline]
         fn bitor(self, other: Self) -> Self {
             Self(self.0 | other.0)
         }
     }
     impl core::ops::BitAnd for SupportedSyncTypes {
         type Output = Self;
+        #[inline]
         fn bitand(self, other: Self) -> Self {
             Self(self.0 & other.0)
         }
     }
     impl core::ops::Not for SupportedSyncTypes {
         type Output = Self;
+        #[inline]
         fn not(self) -> Self {
             Self(self.0 ^ 0x400F)
         }
@@ -4667,82 +5151,100 @@ pub mod types {
     pub struct DiagnosisFlags(u16);
     impl DiagnosisFlags {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u16 {
             self.0
         }
         /// Bit 0: send emergencies. New diagnosis messages are also sent as emergency messages.
+        #[inline]
         pub const fn send_emergencies(self) -> bool {
             rt::bits16::flag(self.0, 0x1)
         }
         /// Returns a copy with [`send_emergencies`](Self::send_emergencies) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_send_emergencies(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: drop information.
+        #[inline]
         pub const fn drop_information(self) -> bool {
             rt::bits16::flag(self.0, 0x2)
         }
         /// Returns a copy with [`drop_information`](Self::drop_information) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_drop_information(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: drop warnings.
+        #[inline]
         pub const fn drop_warnings(self) -> bool {
             rt::bits16::flag(self.0, 0x4)
         }
         /// Returns a copy with [`drop_warnings`](Self::drop_warnings) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_drop_warnings(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: drop errors.
+        #[inline]
         pub const fn drop_errors(self) -> bool {
             rt::bits16::flag(self.0, 0x8)
         }
         /// Returns a copy with [`drop_errors`](Self::drop_errors) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_drop_errors(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: acknowledge mode. 1: the history keeps a message until it is acknowledged. 0: new messages replace old messages.
+        #[inline]
         pub const fn acknowledge_mode(self) -> bool {
             rt::bits16::flag(self.0, 0x10)
         }
         /// Returns a copy with [`acknowledge_mode`](Self::acknowledge_mode) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_acknowledge_mode(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: messages lost. Unacknowledged messages were replaced (overwrite mode), or messages were dropped because the history was full (acknowledge mode).
+        #[inline]
         pub const fn messages_lost(self) -> bool {
             rt::bits16::flag(self.0, 0x20)
         }
         /// Returns a copy with [`messages_lost`](Self::messages_lost) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_messages_lost(self, value: bool) -> Self {
             Self(rt::bits16::with_flag(self.0, 0x20, value))
         }
     }
     impl Default for DiagnosisFlags {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for DiagnosisFlags {
         type Base = u16;
+        #[inline]
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u16 {
             self.0
         }
@@ -4772,18 +5274,21 @@ pub mod types {
     }
     impl core::ops::BitOr for DiagnosisFlags {
         type Output = Self;
+        #[inline]
         fn bitor(self, other: Self) -> Self {
             Self(self.0 | other.0)
         }
     }
     impl core::ops::BitAnd for DiagnosisFlags {
         type Output = Self;
+        #[inline]
         fn bitand(self, other: Self) -> Self {
             Self(self.0 & other.0)
         }
     }
     impl core::ops::Not for DiagnosisFlags {
         type Output = Self;
+        #[inline]
         fn not(self) -> Self {
             Self(self.0 ^ 0x3F)
         }
@@ -4800,46 +5305,56 @@ pub mod types {
     pub struct DeviceType(u32);
     impl DeviceType {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 15 to 0: profile. Number of the device profile, or 0 if the device follows no profile.
+        #[inline]
         pub const fn profile(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// Returns a copy with [`profile`](Self::profile) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_profile(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
+        #[inline]
         pub const fn additional_information(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`additional_information`](Self::additional_information) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_additional_information(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for DeviceType {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for DeviceType {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -4887,94 +5402,115 @@ pub mod types {
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u8) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u8 {
             self.0
         }
         /// Bit 0: generic. 1 while any error is present.
+        #[inline]
         pub const fn generic(self) -> bool {
             rt::bits8::flag(self.0, 0x1)
         }
         /// Returns a copy with [`generic`](Self::generic) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_generic(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x1, value))
         }
         /// Bit 1: current.
+        #[inline]
         pub const fn current(self) -> bool {
             rt::bits8::flag(self.0, 0x2)
         }
         /// Returns a copy with [`current`](Self::current) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_current(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x2, value))
         }
         /// Bit 2: voltage.
+        #[inline]
         pub const fn voltage(self) -> bool {
             rt::bits8::flag(self.0, 0x4)
         }
         /// Returns a copy with [`voltage`](Self::voltage) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_voltage(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x4, value))
         }
         /// Bit 3: temperature.
+        #[inline]
         pub const fn temperature(self) -> bool {
             rt::bits8::flag(self.0, 0x8)
         }
         /// Returns a copy with [`temperature`](Self::temperature) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_temperature(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x8, value))
         }
         /// Bit 4: communication.
+        #[inline]
         pub const fn communication(self) -> bool {
             rt::bits8::flag(self.0, 0x10)
         }
         /// Returns a copy with [`communication`](Self::communication) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_communication(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x10, value))
         }
         /// Bit 5: device profile.
+        #[inline]
         pub const fn device_profile(self) -> bool {
             rt::bits8::flag(self.0, 0x20)
         }
         /// Returns a copy with [`device_profile`](Self::device_profile) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_device_profile(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x20, value))
         }
         /// Bit 7: manufacturer specific.
+        #[inline]
         pub const fn manufacturer_specific(self) -> bool {
             rt::bits8::flag(self.0, 0x80)
         }
         /// Returns a copy with [`manufacturer_specific`](Self::manufacturer_specific) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_manufacturer_specific(self, value: bool) -> Self {
             Self(rt::bits8::with_flag(self.0, 0x80, value))
         }
     }
     impl Default for ErrorRegister {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for ErrorRegister {
         type Base = u8;
+        #[inline]
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u8 {
             self.0 & !0x40
         }
+        #[inline]
         fn as_is(self) -> u8 {
             self.0
         }
@@ -5015,55 +5551,67 @@ pub mod types {
     pub struct MappingEntry(u32);
     impl MappingEntry {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 7 to 0: length. Length of the object in bits.
+        #[inline]
         pub const fn length(self) -> u8 {
             rt::bits32::field(self.0, 0xFF) as u8
         }
         /// Returns a copy with [`length`](Self::length) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_length(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF, value as u32))
         }
         /// Bits 15 to 8: sub-index.
+        #[inline]
         pub const fn sub_index(self) -> u8 {
             rt::bits32::field(self.0, 0xFF00) as u8
         }
         /// Returns a copy with [`sub_index`](Self::sub_index) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_sub_index(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF00, value as u32))
         }
         /// Bits 31 to 16: index.
+        #[inline]
         pub const fn index(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`index`](Self::index) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_index(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for MappingEntry {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for MappingEntry {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5103,46 +5651,56 @@ pub mod types {
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 15 to 0: error code.
+        #[inline]
         pub const fn error_code(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// Returns a copy with [`error_code`](Self::error_code) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_error_code(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: additional information.
+        #[inline]
         pub const fn additional_information(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`additional_information`](Self::additional_information) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_additional_information(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for ErrorFieldEntry {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for ErrorFieldEntry {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5183,55 +5741,67 @@ pub mod types {
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: generates. The device transmits SYNC messages.
+        #[inline]
         pub const fn generates(self) -> bool {
             rt::bits32::flag(self.0, 0x40000000)
         }
         /// Returns a copy with [`generates`](Self::generates) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_generates(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
     }
     impl Default for SyncIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for SyncIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5273,64 +5843,78 @@ pub mod types {
     pub struct TimeIdentifier(u32);
     impl TimeIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: produces. The device transmits TIME messages.
+        #[inline]
         pub const fn produces(self) -> bool {
             rt::bits32::flag(self.0, 0x40000000)
         }
         /// Returns a copy with [`produces`](Self::produces) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_produces(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
         /// Bit 31: consumes. The device receives TIME messages.
+        #[inline]
         pub const fn consumes(self) -> bool {
             rt::bits32::flag(self.0, 0x80000000)
         }
         /// Returns a copy with [`consumes`](Self::consumes) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_consumes(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, value))
         }
     }
     impl Default for TimeIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for TimeIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5374,58 +5958,71 @@ pub mod types {
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the COB-ID is in use.
+        #[inline]
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
         /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for EmergencyIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for EmergencyIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0 & !0x40000000
         }
+        #[inline]
         fn as_is(self) -> u32 {
             self.0
         }
@@ -5468,49 +6065,60 @@ pub mod types {
     pub struct HeartbeatConsumer(u32);
     impl HeartbeatConsumer {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 15 to 0: time. Heartbeat timeout in ms. The value 0 disables monitoring.
+        #[inline]
         pub const fn time(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// Returns a copy with [`time`](Self::time) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_time(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 23 to 16: node ID.
+        #[inline]
         pub const fn node_id(self) -> u8 {
             rt::bits32::field(self.0, 0xFF0000) as u8
         }
         /// Returns a copy with [`node_id`](Self::node_id) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_node_id(self, value: u8) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFF0000, value as u32))
         }
     }
     impl Default for HeartbeatConsumer {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for HeartbeatConsumer {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0 & !0xFF000000
         }
+        #[inline]
         fn as_is(self) -> u32 {
             self.0
         }
@@ -5550,46 +6158,56 @@ pub mod types {
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 15 to 0: minor. Minor revision number, which changes if a new revision does not change the behavior of the device on the bus.
+        #[inline]
         pub const fn minor(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF) as u16
         }
         /// Returns a copy with [`minor`](Self::minor) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_minor(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF, value as u32))
         }
         /// Bits 31 to 16: major. Major revision number, which changes if the behavior of the device on the bus changes.
+        #[inline]
         pub const fn major(self) -> u16 {
             rt::bits32::field(self.0, 0xFFFF0000) as u16
         }
         /// Returns a copy with [`major`](Self::major) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_major(self, value: u16) -> Self {
             Self(rt::bits32::with_field(self.0, 0xFFFF0000, value as u32))
         }
     }
     impl Default for RevisionNumber {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for RevisionNumber {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5631,64 +6249,78 @@ pub mod types {
     pub struct SdoIdentifier(u32);
     impl SdoIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: dynamic. 1 if the COB-ID is assigned at run time.
+        #[inline]
         pub const fn dynamic(self) -> bool {
             rt::bits32::flag(self.0, 0x40000000)
         }
         /// Returns a copy with [`dynamic`](Self::dynamic) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_dynamic(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, value))
         }
         /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the COB-ID is in use.
+        #[inline]
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
         /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for SdoIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for SdoIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5729,55 +6361,67 @@ pub mod types {
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the PDO is in use.
+        #[inline]
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
         /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for ReceivePdoIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for ReceivePdoIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5819,64 +6463,78 @@ pub mod types {
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
         /// Creates a value in which all bits are 0.
+        #[inline]
         pub const fn new() -> Self {
             Self(0)
         }
         /// Creates the value from its raw bits.
+        #[inline]
         pub const fn from_raw(raw: u32) -> Self {
             Self(raw)
         }
         /// Returns the raw bits.
+        #[inline]
         pub const fn raw(self) -> u32 {
             self.0
         }
         /// Bits 28 to 0: identifier.
+        #[inline]
         pub const fn identifier(self) -> u32 {
             rt::bits32::field(self.0, 0x1FFFFFFF)
         }
         /// Returns a copy with [`identifier`](Self::identifier) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_identifier(self, value: u32) -> Self {
             Self(rt::bits32::with_field(self.0, 0x1FFFFFFF, value))
         }
         /// Bit 29: extended. 1 for a 29-bit CAN-ID, 0 for an 11-bit CAN-ID.
+        #[inline]
         pub const fn extended(self) -> bool {
             rt::bits32::flag(self.0, 0x20000000)
         }
         /// Returns a copy with [`extended`](Self::extended) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_extended(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x20000000, value))
         }
         /// Bit 30: remote request. Active low: the flag is true if the bit is 0. 0 if a remote frame may request the PDO.
+        #[inline]
         pub const fn remote_request(self) -> bool {
             !rt::bits32::flag(self.0, 0x40000000)
         }
         /// Returns a copy with [`remote_request`](Self::remote_request) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_remote_request(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x40000000, !value))
         }
         /// Bit 31: valid. Active low: the flag is true if the bit is 0. 0 if the PDO is in use.
+        #[inline]
         pub const fn valid(self) -> bool {
             !rt::bits32::flag(self.0, 0x80000000)
         }
         /// Returns a copy with [`valid`](Self::valid) set to `value`.
         #[must_use]
+        #[inline]
         pub const fn with_valid(self, value: bool) -> Self {
             Self(rt::bits32::with_flag(self.0, 0x80000000, !value))
         }
     }
     impl Default for TransmitPdoIdentifier {
+        #[inline]
         fn default() -> Self {
             Self::new()
         }
     }
     impl rt::Enumeration for TransmitPdoIdentifier {
         type Base = u32;
+        #[inline]
         fn from_native(native: u32) -> Self {
             Self::from_raw(native)
         }
+        #[inline]
         fn native(self) -> u32 {
             self.0
         }
@@ -5963,6 +6621,7 @@ pub mod types {
     }
     impl State {
         /// Returns the state that these bits encode, or `None` if the bits match no state.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x4F == 0 {
                 return Some(Self::NotReadyToSwitchOn);
@@ -5991,6 +6650,7 @@ pub mod types {
             None
         }
         /// Returns the bits that are 1 in the state.
+        #[inline]
         pub const fn value(self) -> u16 {
             match self {
                 Self::NotReadyToSwitchOn => 0,
@@ -6006,10 +6666,12 @@ pub mod types {
     }
     impl Statusword {
         /// Returns the state, or `None` if the bits match no state.
+        #[inline]
         pub const fn state(self) -> Option<State> {
             State::from_raw(self.0)
         }
         /// Returns the bits of a state. All bits on which the state does not depend are 0.
+        #[inline]
         pub const fn from_state(state: State) -> Self {
             Self(state.value())
         }
@@ -6104,15 +6766,19 @@ pub mod types {
             Self::Fault as u8,
         ];
         const ENERGIZED: &'static [u8] = &[Self::OperationEnabled as u8];
+        #[inline]
         fn of_status(bits: u32) -> Option<Self> {
             Self::from_raw(bits as u16)
         }
+        #[inline]
         fn number(self) -> u8 {
             self as u8
         }
+        #[inline]
         fn name(self) -> &'static str {
             Self::NAMES[self as usize].1
         }
+        #[inline]
         fn pattern(command: Command) -> (u32, u32) {
             (command.mask() as u32, command.value() as u32)
         }
@@ -6195,6 +6861,7 @@ pub mod types {
         /// Returns the command that these bits encode, or `None` if the bits match no command.
         ///
         /// If several commands match, the function returns the first of those whose masks have the most bits.
+        #[inline]
         pub const fn from_raw(raw: u16) -> Option<Self> {
             if raw & 0x8F == 0x7 {
                 return Some(Self::SwitchOn);
@@ -6220,6 +6887,7 @@ pub mod types {
             None
         }
         /// Returns the mask of all bits that the command sets or clears.
+        #[inline]
         pub const fn mask(self) -> u16 {
             match self {
                 Self::Shutdown => 0x87,
@@ -6232,6 +6900,7 @@ pub mod types {
             }
         }
         /// Returns the bits that the command sets.
+        #[inline]
         pub const fn value(self) -> u16 {
             match self {
                 Self::Shutdown => 0x6,
@@ -6246,11 +6915,13 @@ pub mod types {
     }
     impl Controlword {
         /// Returns the command, or `None` if the bits match no command.
+        #[inline]
         pub const fn command(self) -> Option<Command> {
             Command::from_raw(self.0)
         }
         /// Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.
         #[must_use]
+        #[inline]
         pub const fn with_command(self, command: Command) -> Self {
             Self((self.0 & !command.mask()) | command.value())
         }
@@ -6411,9 +7082,11 @@ pub mod codes {
     }
     impl rt::codes::CodeTable for DriveErrors {
         type Raw = u16;
+        #[inline]
         fn codes() -> &'static [rt::codes::Code] {
             DRIVE_ERRORS
         }
+        #[inline]
         fn from_raw(code: u16) -> Self {
             match code {
                 0x2310 => Self::ContinuousOverCurrent,
@@ -6452,6 +7125,7 @@ pub mod codes {
                 _ => Self::Unknown(code),
             }
         }
+        #[inline]
         fn raw(self) -> u16 {
             match self {
                 Self::ContinuousOverCurrent => 0x2310,
@@ -6492,12 +7166,14 @@ pub mod codes {
         }
     }
     impl core::cmp::PartialEq for DriveErrors {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
         }
     }
     impl core::cmp::Eq for DriveErrors {}
     impl core::hash::Hash for DriveErrors {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
@@ -6692,9 +7368,11 @@ pub mod codes {
     }
     impl rt::codes::CodeTable for Emergency {
         type Raw = u16;
+        #[inline]
         fn codes() -> &'static [rt::codes::Code] {
             EMERGENCY
         }
+        #[inline]
         fn from_raw(code: u16) -> Self {
             match code {
                 0 => Self::NoError,
@@ -6735,6 +7413,7 @@ pub mod codes {
                 _ => Self::Unknown(code),
             }
         }
+        #[inline]
         fn raw(self) -> u16 {
             match self {
                 Self::NoError => 0,
@@ -6777,12 +7456,14 @@ pub mod codes {
         }
     }
     impl core::cmp::PartialEq for Emergency {
+        #[inline]
         fn eq(&self, other: &Self) -> bool {
             rt::codes::CodeTable::raw(*self) == rt::codes::CodeTable::raw(*other)
         }
     }
     impl core::cmp::Eq for Emergency {}
     impl core::hash::Hash for Emergency {
+        #[inline]
         fn hash<H: core::hash::Hasher>(&self, state: &mut H) {
             core::hash::Hash::hash(&rt::codes::CodeTable::raw(*self), state);
         }
