@@ -163,7 +163,8 @@ pub(super) fn model(
     reserved_names.extend(methods.iter().map(String::as_str));
     let fields = generator.fields(&entries, None, &reserved_names, &|name| format!("[`{name}`](Self::{name})"));
     let (zeros, ones) = reserved(&entries);
-    let mut docs = docs::of_type(context, position);
+    let users = context.links.users(position, DocModule::TYPES);
+    let mut docs = docs::of_type(context, position, &users);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
             docs.extend([
@@ -206,7 +207,7 @@ pub(super) fn model(
         fields,
         name: name.clone(),
         is_of_profile: context.is_of_profile(position),
-        users: context.links.users(position, DocModule::TYPES),
+        users,
     }
 }
 

@@ -173,8 +173,8 @@ pub(super) fn add_doubts(list: &[Doubt], manual: &Manual, lines: &mut Vec<String
 }
 
 /// Returns the first lines of the documentation of the type at `position`: name, description, origin, ambiguities, and
-/// the items that use the type.
-pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
+/// `users`, a sentence about the items that use the type.
+pub(super) fn of_type(context: &Context<'_>, position: u32, users: &str) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
     let mut lines = vec![sentence(&escape(&definition.name))];
     described(definition.documentation.as_deref(), &context.manual, &mut lines);
@@ -182,9 +182,8 @@ pub(super) fn of_type(context: &Context<'_>, position: u32) -> Vec<String> {
         lines.extend([String::new(), origin]);
     }
     add_doubts(&definition.doubts, &context.manual, &mut lines);
-    let users = context.links.users(position, DocModule::TYPES);
     if !users.is_empty() {
-        lines.extend([String::new(), users]);
+        lines.extend([String::new(), users.to_owned()]);
     }
     lines
 }

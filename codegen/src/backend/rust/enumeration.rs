@@ -75,7 +75,8 @@ pub(super) fn model(
     let in_field = context.names.types.in_fields.contains(&position);
     let complete = in_field && named.bits <= COMPLETE && values.len() == 1 << named.bits;
     let variants = variants(&values, context);
-    let mut docs = docs::of_type(context, position);
+    let users = context.links.users(position, DocModule::TYPES);
+    let mut docs = docs::of_type(context, position, &users);
     docs.extend(table(if complete { &[] } else { all }, &values, &variants));
     EnumerationModel {
         docs,
@@ -89,7 +90,7 @@ pub(super) fn model(
         variants,
         name: named.name.clone(),
         is_of_profile: context.is_of_profile(position),
-        users: context.links.users(position, DocModule::TYPES),
+        users,
     }
 }
 
