@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Measures the peak memory of `lexibus check` and `lexibus generate`. Subtracts the peak memory for a minimal description and
-# prints the rest as a multiple of the input size.
+# prints the rest as a multiple of the input size. Each peak is the median of five runs, because the amount of the program's code in
+# memory depends on the random address at which it is loaded.
 #
 #     benches/memory.sh [FILE...]
 #
@@ -16,8 +17,10 @@ trap 'rm -rf "$work"' EXIT
 peak() {
     local out=(--out "$work/out.rs")
     [[ $1 == check ]] && out=()
-    /usr/bin/time -f %M -o "$work/peak" "$lexibus" "$1" "$2" "${out[@]}" >/dev/null 2>&1 || true
-    tail -1 "$work/peak"
+    for _ in 1 2 3 4 5; do
+        /usr/bin/time -f %M -o "$work/peak" "$lexibus" "$1" "$2" "${out[@]}" >/dev/null 2>&1 || true
+        tail -1 "$work/peak"
+    done | sort -n | sed -n 3p
 }
 
 # Writes a minimal description with the extension of $1 and prints its path. For XML files of all formats, the description is an

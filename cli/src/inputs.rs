@@ -45,12 +45,17 @@ pub(super) fn sorted(inputs: &Inputs) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Compiles files in parallel, and passes the results to `use_it` in the order of the files.
+///
+/// A single file is compiled without another thread: the memory of an allocator for several threads is less compact.
 pub(super) fn compile_all(
     files: &[PathBuf],
     inputs: &Inputs,
     options: &Options,
     mut use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    if let [path] = files {
+        return use_it(path, compile_file(path, options));
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads(inputs.jobs, files.len()))
         .build()

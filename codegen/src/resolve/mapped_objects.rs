@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::ir::{
-    Access, Binding, Device, Direction, Fact, FactOrigins, Group, Item, Module, ObjectCode, Pdo, PdoEntryKind, Rule,
+    Access, Binding, Device, Direction, Fact, FactOrigins, Group, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Rule,
 };
 use crate::source::Origin;
 
@@ -22,13 +22,32 @@ pub(super) fn module(module: &mut Module) {
     complete(&mut module.groups, &mut module.process_data.pdos, true);
 }
 
-/// The sub-indices of an object that only PDO entries describe.
+/// The sub-indices of an object that only PDO entries describe, in the order of these entries.
 #[derive(Default)]
 struct Implied {
-    items: BTreeMap<u8, Item>,
+    items: Vec<Item>,
     depends_on_slot: bool,
     depends_on_slot_group: bool,
     origin: Origin,
+}
+
+impl Implied {
+    /// Returns the item that this PDO entry maps. The first entry that maps an item gives its name and type.
+    fn item(&mut self, entry: &PdoEntry, origin: Origin) -> &mut Item {
+        let object = Some((entry.index, entry.sub_index));
+        let position = self.items.iter().position(|item| item.object() == object);
+        let position = position.unwrap_or_else(|| {
+            let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
+            (item.name, item.names) = (entry.name.clone(), entry.names.clone());
+            (item.ty, item.origin) = (entry.ty, origin);
+            item.origins = FactOrigins::by_rule(&[Fact::Access, Fact::Mappable], Rule::MappedObject);
+            // Most of these objects have one item, and `Vec` would allocate memory for four.
+            self.items.reserve_exact(1);
+            self.items.push(item);
+            self.items.len() - 1
+        });
+        &mut self.items[position]
+    }
 }
 
 fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
@@ -46,13 +65,7 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
             if object.items.is_empty() {
                 object.origin = origin;
             }
-            let item = object.items.entry(entry.sub_index).or_insert_with(|| {
-                let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
-                (item.name, item.names) = (entry.name.clone(), entry.names.clone());
-                (item.ty, item.origin) = (entry.ty, origin);
-                item.origins = FactOrigins::by_rule(&[Fact::Access, Fact::Mappable], Rule::MappedObject);
-                item
-            });
+            let item = object.item(entry, origin);
             match pdo.direction {
                 Direction::Receive => (item.access, item.mappable.rpdo) = (Access::ReadWrite, true),
                 Direction::Transmit => item.mappable.tpdo = true,
@@ -66,20 +79,21 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
 /// adds only its implied sub-indices.
 fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
     let described = groups.len();
-    for (index, object) in objects {
+    for (index, mut object) in objects {
+        object.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
         let known = groups.get_mut(..described).unwrap_or_default();
         let position = known.binary_search_by_key(&Some(index), Group::index).ok();
         if let Some(group) = position.and_then(|position| known.get_mut(position)) {
-            group.items.extend(object.items.into_values());
+            group.items.append(&mut object.items);
             group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
             continue;
         }
-        let is_var = object.items.keys().eq([&0]);
+        let is_var = matches!(object.items.as_slice(), [item] if item.object() == Some((index, 0)));
         let mut group = Group::object(index, if is_var { ObjectCode::Var } else { ObjectCode::Record });
-        if let (true, Some(item)) = (is_var, object.items.values().next()) {
+        if let (true, Some(item)) = (is_var, object.items.first()) {
             (group.name, group.names) = (item.name.clone(), item.names.clone());
         }
-        group.items = object.items.into_values().collect();
+        group.items = object.items;
         group.origin = object.origin;
         group.depends_on_slot = object.depends_on_slot;
         group.depends_on_slot_group = object.depends_on_slot_group;

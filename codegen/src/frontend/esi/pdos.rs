@@ -39,6 +39,8 @@ impl<'a> Pdos<'a> {
         if has_template {
             check(reader, parent, &pdo, index.is_some());
         }
+        // Most PDOs have few entries, and an ESI has thousands of PDOs.
+        pdo.entries.shrink_to_fit();
         self.types.extend(types);
         self.list.push(pdo);
         Ok(())
@@ -51,10 +53,9 @@ impl<'a> Pdos<'a> {
         for (entry, ty) in entries.zip(&self.types) {
             entry.ty = resolve(ty, entry);
         }
-        let (receive, transmit): (Vec<Pdo>, Vec<Pdo>) =
-            list.into_iter().partition(|pdo| pdo.direction == Direction::Receive);
-        data.pdos = receive;
-        data.pdos.extend(transmit);
+        list.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
+        list.shrink_to_fit();
+        data.pdos = list;
     }
 }
 

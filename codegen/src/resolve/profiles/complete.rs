@@ -237,6 +237,7 @@ impl<'p> Completion<'p> {
     /// its name has the same [`letters`] as that of an older type.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
         *types = std::mem::take(&mut self.types);
+        types.shrink_to_fit();
         let before = before.min(types.len());
         let (of_device, new) = types.split_at_mut(before);
         let is_value = |definition: &&TypeDef| {
