@@ -24,13 +24,15 @@ peak() {
 }
 
 # Writes a minimal description with the extension of $1 and prints its path. For XML files of all formats, the description is an
-# ESI. Compiling it takes only the memory that the compiler needs for every input, such as the memory for the profiles.
+# ESI. Compiling it takes only the memory that the compiler needs for every input, such as the memory for the profiles. Stops the
+# script if the compiler rejects the description.
 empty() {
     case $1 in
-    *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[[chapters]]\nname = "a"\nbus = "modbus"\n[chapters.registers]\na = { at = 1, type = "u16" }\n' ;;
+    *.toml) printf 'lexibus = 1\n[device]\nname = "a"\nvendor = "a"\n[spaces.register]\nmodbus = { table = "holding", first = 1 }\n[[chapters]]\n[chapters.registers]\na = { reg = 1, type = "u16", access = "rw" }\n' ;;
     *.[eE][dD][sS] | *.[dD][cC][fF]) printf '[FileInfo]\nFileName=a.eds\n[1000]\nParameterName=a\nDataType=7\nAccessType=ro\n' ;;
     *) printf '<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device Physics="YY"><Type ProductCode="1">a</Type></Device></Devices></Descriptions></EtherCATInfo>' ;;
     esac >"$work/empty.${1##*.}"
+    "$lexibus" check "$work/empty.${1##*.}" -A warnings >/dev/null
     echo "$work/empty.${1##*.}"
 }
 
