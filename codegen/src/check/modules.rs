@@ -132,9 +132,8 @@ fn slots(device: &Device, settings: &ProfinetSettings, modules: &[Module], diagn
         let range = if first == last { first.to_string() } else { format!("{first}..{last}") };
         let message =
             format!("the module `{name}` is for slots {range}, but the device does not have all of these slots");
-        diagnostics.push(
-            codes::SLOT_RANGE.at(device.origin.span, message).label("PhysicalSlots lists the slots of the device"),
-        );
+        let found = codes::SLOT_RANGE.at(device.origin.span, message);
+        diagnostics.push(found.label("PhysicalSlots lists the slots of the device"));
     }
 }
 

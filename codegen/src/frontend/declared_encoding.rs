@@ -1,6 +1,6 @@
 //! Compares the encoding in the XML declaration with the bytes of the file.
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::source::{Encoding, FileId, Source, Span};
 
 /// Replacement character for bytes that are invalid in the encoding.
@@ -25,7 +25,8 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
         None => "first invalid byte sequence; its bytes are lost".to_owned(),
     };
     diagnostics.push(
-        Diagnostic::new(&codes::WRONG_ENCODING, span, message)
+        codes::WRONG_ENCODING
+            .at(span, message)
             .label(label)
             .help("save the file as UTF-8 with the declaration `<?xml version=\"1.0\" encoding=\"UTF-8\"?>`"),
     );

@@ -80,7 +80,8 @@ pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
         return unknown_xml(start, Span::new(file, at, at));
     }
     match cip_section(&Document::parse(text, file)) {
-        Some(span) => Diagnostic::new(&codes::ETHERNET_IP_EDS, span, "this is an EtherNet/IP EDS, not a CANopen EDS")
+        Some(span) => codes::ETHERNET_IP_EDS
+            .at(span, "this is an EtherNet/IP EDS, not a CANopen EDS")
             .label("this section belongs to the EDS format of ODVA")
             .help("ask the vendor for the CANopen EDS; the two formats share only the extension .eds"),
         None => unknown_format(Span::new(file, 0, 0), "this is not a device description"),
@@ -88,7 +89,7 @@ pub(super) fn unknown(source: &Source, file: FileId) -> Diagnostic {
 }
 
 fn unknown_format(span: Span, message: &str) -> Diagnostic {
-    Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message).help(
+    codes::UNKNOWN_FORMAT.at(span, message).help(
         "use an EDS or DCF (CiA 306), an XDD or XDC (CiA 311), an ESI (ETG.2000), a GSDML file, or a register table \
              that begins with `lexibus = 1`",
     )
@@ -96,7 +97,7 @@ fn unknown_format(span: Span, message: &str) -> Diagnostic {
 
 fn unknown_xml(text: &str, span: Span) -> Diagnostic {
     let Some((root, offset)) = root_element(text) else {
-        return Diagnostic::new(&codes::MALFORMED_XML, span, "the file has no root element");
+        return codes::MALFORMED_XML.at(span, "the file has no root element");
     };
     let start = span.start + offset as u32;
     let at = Span::new(span.file, start, start + root.len() as u32);

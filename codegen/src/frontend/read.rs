@@ -158,5 +158,5 @@ pub(crate) fn read_overlay<'s>(source: &'s Source, file: FileId, diagnostics: &m
 pub(crate) fn without_feature(feature: &str, what: &str, file: FileId) -> Diagnostic {
     let message = format!("`lexibus-codegen` was built without the feature `{feature}`, which reads {what}");
     let help = format!("add it to the dependency: `lexibus-codegen = {{ …, features = [\"{feature}\"] }}`");
-    Diagnostic::new(&codes::UNKNOWN_FORMAT, Span::new(file, 0, 0), message).help(help)
+    codes::UNKNOWN_FORMAT.at(Span::new(file, 0, 0), message).help(help)
 }

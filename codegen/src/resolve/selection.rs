@@ -85,7 +85,7 @@ pub fn select_objects(selection: &Selection, catalog: &mut Catalog, diagnostics:
     let is_missing = |filter: &&ObjectFilter| existing.range(filter.first..=filter.last).next().is_none();
     for filter in selection.objects.iter().filter(is_missing) {
         let message = format!("there is no object `{filter}` in the file");
-        let found = Diagnostic::new(&codes::NOTHING_SELECTED, Span::new(FileId(0), 0, 0), message);
+        let found = codes::NOTHING_SELECTED.at(Span::new(FileId(0), 0, 0), message);
         diagnostics.push(found.help(nearest(&existing, *filter)));
     }
     let wanted = |index: u16| selection.has_object(index);
@@ -178,7 +178,7 @@ fn nearest(existing: &BTreeSet<u16>, filter: ObjectFilter) -> String {
 /// Creates the diagnostic for a filter without a match, with the most similar name.
 fn nothing<'n>(what: &str, wanted: &str, filter: &Filter, names: impl Iterator<Item = &'n str>) -> Diagnostic {
     let message = format!("there is no {what} `{wanted}` in the file");
-    let diagnostic = Diagnostic::new(&codes::NOTHING_SELECTED, Span::new(FileId(0), 0, 0), message);
+    let diagnostic = codes::NOTHING_SELECTED.at(Span::new(FileId(0), 0, 0), message);
     let names = names.filter(|name| !name.is_empty());
     let similar = names.min_by_key(|name| edit_distance(filter.text(), &name.to_lowercase()));
     match similar {

@@ -1,6 +1,6 @@
 //! Checks the network settings that EDS and XDD files have in common.
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::source::Span;
 
 /// Returns the data type code of a dummy entry, such as 7 for `Dummy0007`, ignoring case.
@@ -14,7 +14,7 @@ pub fn dummy_code(key: &str) -> Option<u8> {
 pub fn granularity(bits: u8, span: Span, diagnostics: &mut Diagnostics) {
     if bits > 64 {
         let message = format!("a granularity of {bits} bits exceeds the 64 bits of a PDO");
-        diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 0 to 64"));
+        diagnostics.push(codes::VALUE_NOT_ALLOWED.at(span, message).label("expected 0 to 64"));
     }
 }
 
@@ -23,7 +23,7 @@ pub fn node_id(number: u32, span: Span, diagnostics: &mut Diagnostics) -> Option
     let node_id = u8::try_from(number).ok().filter(|node_id| (1..=127).contains(node_id));
     if node_id.is_none() {
         let message = format!("{number} is not a valid node-ID");
-        diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 1 to 127"));
+        diagnostics.push(codes::VALUE_NOT_ALLOWED.at(span, message).label("expected 1 to 127"));
     }
     node_id
 }

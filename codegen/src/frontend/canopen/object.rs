@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 use super::deftype::defined_type;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Access, Fact, FactOrigin, Group, Item, ObjectCode, Rule, Shape, Type, TypeDef};
 use crate::number::hex16;
 use crate::source::Span;
@@ -39,8 +39,7 @@ impl ObjectType<'_> {
             Some(ObjectCode::Var) => {}
             _ => {
                 let message = format!("`{}` is not a valid object type for a {}", self.text, terms.sub_object);
-                let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, self.span, message);
-                diagnostics.push(found.label("read as VAR"));
+                diagnostics.push(codes::UNKNOWN_OBJECT_TYPE.at(self.span, message).label("read as VAR"));
             }
         }
         ObjectCode::Var
@@ -63,13 +62,12 @@ pub fn object_code(
         Some(Some(code)) if code != ObjectCode::Var => return code,
         Some(None) => {
             let message = format!("`{}` is not a valid object type", given.map_or("", |given| given.text));
-            let found = Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message);
+            let found = codes::UNKNOWN_OBJECT_TYPE.at(span, message);
             diagnostics.push(found.label(format!("read as {}", by_content.name())));
         }
         _ if has_subs => {
             let message = format!("object {} is a VAR, but has sub-indices", hex16(index));
-            let found = Diagnostic::new(&codes::VAR_WITH_SUBS, span, message).label("read as a RECORD");
-            diagnostics.push(found.help(terms.records));
+            diagnostics.push(codes::VAR_WITH_SUBS.at(span, message).label("read as a RECORD").help(terms.records));
         }
         _ => {}
     }
@@ -97,7 +95,7 @@ pub fn type_by_code(code: u32, span: Span, defined: Option<Type>, diagnostics: &
         0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {shown} is reserved")),
         _ => (&codes::UNKNOWN_DATA_TYPE, format!("neither CiA 301 nor this file defines the data type {shown}")),
     };
-    diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
+    diagnostics.push(kind.at(span, message).label("kept as raw bytes"));
     Type::Opaque(Some(code))
 }
 
@@ -114,8 +112,7 @@ pub fn access(text: &str, span: Span, diagnostics: &mut Diagnostics) -> Access {
 /// Reports an unknown access type, which is read as `access`.
 pub fn unknown_access(text: &str, span: Span, access: Access, help: &str, diagnostics: &mut Diagnostics) {
     let message = format!("`{}` is not a valid access type", brief(text));
-    let found = Diagnostic::new(&codes::UNKNOWN_ACCESS, span, message);
-    diagnostics.push(found.label(format!("read as {}", access.name())).help(help));
+    diagnostics.push(codes::UNKNOWN_ACCESS.at(span, message).label(format!("read as {}", access.name())).help(help));
 }
 
 /// Compares the announced number of sub-indices, written as `text`, with the number of described sub-indices. Sub-index
@@ -132,15 +129,12 @@ pub fn sub_number(
     let described = group.items.len() - structure;
     let Terms { sub_number, elements, .. } = terms;
     let found = if structure > 0 && announced == group.items.len() as i128 {
-        Diagnostic::new(
-            &codes::STRUCTURE_ENTRY,
-            span,
-            format!("{sub_number} counts sub-index 0xFF, which is not an element"),
-        )
-        .label(format!("expected {described}"))
+        codes::STRUCTURE_ENTRY
+            .at(span, format!("{sub_number} counts sub-index 0xFF, which is not an element"))
+            .label(format!("expected {described}"))
     } else if announced != described as i128 {
         let message = format!("{sub_number} is {text}, but the file describes {described} sub-indices");
-        Diagnostic::new(&codes::SUB_NUMBER, span, message).label(format!("the existing {elements} are used"))
+        codes::SUB_NUMBER.at(span, message).label(format!("the existing {elements} are used"))
     } else {
         return;
     };
@@ -155,7 +149,7 @@ pub fn define_type(group: &Group, types: &mut Vec<TypeDef>, diagnostics: &mut Di
         if index < 0x1000 && index > 0 {
             let message =
                 format!("object {} is in the data type area, but has the object type {}", hex16(index), code.name());
-            diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
+            diagnostics.push(codes::TYPE_AREA_OBJECT.at(group.origin.span, message));
         }
         return None;
     }

@@ -1,7 +1,7 @@
 //! Converts the text of a default value, limit or configured value to a [`Value`] of the item's type.
 
 use super::number::{self, Number, Parsed, Quirk};
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{CompactString, Type, Value};
 use crate::number::hex;
 use crate::source::Span;
@@ -87,7 +87,8 @@ impl Converter<'_> {
     pub fn unquoted<'t>(&mut self, text: &'t str, span: Span) -> &'t str {
         let inside = |text: &'t str| text.strip_prefix('"')?.strip_suffix('"');
         let Some(inner) = inside(text) else { return text };
-        let found = Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
+        let found = codes::QUOTED_VALUE
+            .at(span, "the text is in quotation marks")
             .label("one pair of quotation marks was removed");
         // A fix is offered only if it removes all quotation marks.
         self.diagnostics.push(if inside(inner).is_some() {
@@ -124,15 +125,9 @@ impl Converter<'_> {
         if hex && ty.is_signed() && value < modulus {
             let negative = value - modulus;
             if role == Role::Value {
-                self.diagnostics.push(
-                    Diagnostic::new(
-                        &codes::TWOS_COMPLEMENT,
-                        span,
-                        format!("{text} is out of range for {ty}, but is the bit pattern of {negative}"),
-                    )
-                    .label(format!("read as {negative}"))
-                    .fix(negative.to_string()),
-                );
+                let found = codes::TWOS_COMPLEMENT
+                    .at(span, format!("{text} is out of range for {ty}, but is the bit pattern of {negative}"));
+                self.diagnostics.push(found.label(format!("read as {negative}")).fix(negative.to_string()));
             }
             return Value::Int(negative);
         }
@@ -156,7 +151,7 @@ impl Converter<'_> {
         let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
         if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
             let message = format!("`{}` has {} hexadecimal digits, but {ty} needs {needed}", brief(text), digits.len());
-            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("the number is used as written");
+            let found = codes::HEX_DIGITS.at(span, message).label("the number is used as written");
             self.diagnostics.push(found.help("check the digits and the data type against the manual"));
         }
     }
@@ -178,15 +173,9 @@ impl Converter<'_> {
         if let Some((whole, fraction)) = text.split_once('.') {
             if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
                 if let Some(value) = number::parse(whole, &[]).int() {
-                    self.diagnostics.push(
-                        Diagnostic::new(
-                            &codes::REAL_FOR_INTEGER,
-                            span,
-                            format!("{text} is a real number, but the type is {ty}"),
-                        )
-                        .label(format!("read as {value}"))
-                        .fix(value.to_string()),
-                    );
+                    let found =
+                        codes::REAL_FOR_INTEGER.at(span, format!("{text} is a real number, but the type is {ty}"));
+                    self.diagnostics.push(found.label(format!("read as {value}")).fix(value.to_string()));
                     return Value::Int(value);
                 }
             }
@@ -229,11 +218,8 @@ impl Converter<'_> {
         }
         if let Some(value) = text.contains(',').then(|| finite(&text.replacen(',', ".", 1))).flatten() {
             let fix = text.replacen(',', ".", 1);
-            self.diagnostics.push(
-                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} has a decimal comma"))
-                    .label(format!("read as {value}"))
-                    .fix(fix),
-            );
+            let found = codes::DECIMAL_COMMA.at(span, format!("{text} has a decimal comma"));
+            self.diagnostics.push(found.label(format!("read as {value}")).fix(fix));
             return Value::Real(value);
         }
         match number::parse(text, self.aliases).parsed {
@@ -315,12 +301,11 @@ impl Converter<'_> {
     }
 
     fn unknown_formula(&mut self, text: &str, span: Span) {
+        let found = codes::UNKNOWN_FORMULA.at(span, format!("`{text}` is not a formula that CiA 306 defines"));
         self.diagnostics.push(
-            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is not a formula that CiA 306 defines"))
-                .label("kept as text")
-                .help(
-                    "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`",
-                ),
+            found.label("kept as text").help(
+                "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`",
+            ),
         );
     }
 
@@ -341,11 +326,11 @@ impl Converter<'_> {
             Parsed::NodeId(offset) => format!("$NODEID+{}", hex(offset)),
             _ => return,
         };
-        self.diagnostics.push(Diagnostic::new(code, span, message).label(format!("read as {fix}")).fix(fix));
+        self.diagnostics.push(code.at(span, message).label(format!("read as {fix}")).fix(fix));
     }
 
     fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>, label: impl Into<String>) {
-        self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
+        self.diagnostics.push(code.at(span, message).label(label));
     }
 }
 

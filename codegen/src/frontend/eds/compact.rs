@@ -5,7 +5,7 @@ use super::keywords::{Raw, OF_A_VALUE};
 use super::lists;
 use super::reader::Reader;
 use super::sections::Refinement;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
     Access, Binding, CompactString, Configured, Extensions, Fact, FactOrigins, Group, Item, ObjectCode, Rule, Type,
@@ -98,11 +98,8 @@ fn nothing_to_refine(
     message: String,
     extensions: &mut Extensions,
 ) {
-    reader.diagnostics.push(
-        Diagnostic::new(&codes::NAME_WITHOUT_SUB, reader.doc.key_span(entry), message)
-            .label("kept as an extension attribute")
-            .help("write the number of an existing sub-index, in decimal"),
-    );
+    let found = codes::NAME_WITHOUT_SUB.at(reader.doc.key_span(entry), message).label("kept as an extension attribute");
+    reader.diagnostics.push(found.help("write the number of an existing sub-index, in decimal"));
     reader.foreign(section, entry, extensions);
 }
 

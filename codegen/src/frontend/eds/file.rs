@@ -6,7 +6,7 @@ use super::reader::Reader;
 use super::sections::{classify, Refinement, SectionKind};
 use super::{header, lists, modules, sections};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::canopen::object::define_type;
 use crate::ir::{Catalog, Device, Extensions};
 use crate::limits;
@@ -36,12 +36,10 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     };
     let sorted = Sorted::new(&mut reader);
     if sorted.is_empty() {
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "the file has no section that CiA 306 defines")
-                .help(
-                    "check that the file has [FileInfo], [DeviceInfo], object lists, and sections of objects such as [1000]",
-                ),
-        );
+        let found = codes::NOT_AN_EDS.at(Span::new(file, 0, 0), "the file has no section that CiA 306 defines");
+        reader.diagnostics.push(found.help(
+            "check that the file has [FileInfo], [DeviceInfo], object lists, and sections of objects such as [1000]",
+        ));
         // Syntax errors are reported because they may explain the missing sections.
         report_oddities(&doc, diagnostics);
         return None;
@@ -147,11 +145,8 @@ fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: SectionKin
         _ => String::new(),
     };
     let name = reader.doc.name(section);
-    let mut diagnostic = Diagnostic::new(
-        &codes::ILLEGAL_SECTION_NAME,
-        reader.doc.name_span(section),
-        format!("the section name `{name}` violates the grammar of CiA 306"),
-    );
+    let mut diagnostic = codes::ILLEGAL_SECTION_NAME
+        .at(reader.doc.name_span(section), format!("the section name `{name}` violates the grammar of CiA 306"));
     if !fix.is_empty() {
         diagnostic = diagnostic.label(format!("read as {fix}")).fix(fix);
     }
@@ -166,14 +161,9 @@ fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &m
         let name = reader.doc.name(section);
         // CiA 306-1 defines the section [Tools], which lists software tools, so this section is not reported.
         if !name.eq_ignore_ascii_case("Tools") {
-            reader.diagnostics.push(
-                Diagnostic::new(
-                    &codes::UNKNOWN_SECTION,
-                    reader.doc.name_span(section),
-                    format!("CiA 306 does not define the section [{name}]"),
-                )
-                .label("kept as extension attributes of the device"),
-            );
+            let found = codes::UNKNOWN_SECTION
+                .at(reader.doc.name_span(section), format!("CiA 306 does not define the section [{name}]"));
+            reader.diagnostics.push(found.label("kept as extension attributes of the device"));
         }
         let first = *seen.entry(name.to_ascii_lowercase()).or_insert(section);
         if first.line != section.line {
@@ -202,11 +192,8 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
     };
     let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
     let span = Span::new(file, at as u32, (at + length) as u32);
-    diagnostics.push(
-        Diagnostic::new(&codes::NOT_UTF8, span, message)
-            .label(label)
-            .help("convert the file to ASCII; most tools also read UTF-8"),
-    );
+    let found = codes::NOT_UTF8.at(span, message).label(label);
+    diagnostics.push(found.help("convert the file to ASCII; most tools also read UTF-8"));
 }
 
 fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
@@ -238,10 +225,10 @@ fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
                 };
                 let message = format!("{lines} with `#`, which does not start a comment in CiA 306");
                 let help = "start comment lines with `;`";
-                diagnostics.push(Diagnostic::new(&codes::HASH_COMMENT, span, message).label(label).help(help));
+                diagnostics.push(codes::HASH_COMMENT.at(span, message).label(label).help(help));
                 continue;
             }
         };
-        diagnostics.push(Diagnostic::new(code, span, message).label(label));
+        diagnostics.push(code.at(span, message).label(label));
     }
 }

@@ -6,7 +6,7 @@ use super::lists::{self, Lists};
 use super::object::in_order_of_file;
 use super::reader::{Fixed, Reader};
 use super::sections::{List, SectionKind};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::{network, number};
 use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Extensions, Header};
 use crate::syntax::ini::{Entry, Section};
@@ -167,7 +167,7 @@ fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
     };
     let message = format!("{} is not {expected}", FILE_INFO[which]);
     let span = reader.doc.value_span(entry);
-    reader.diagnostics.push(Diagnostic::new(&codes::HEADER_FORMAT, span, message).label("kept as text"));
+    reader.diagnostics.push(codes::HEADER_FORMAT.at(span, message).label("kept as text"));
 }
 
 fn old_version(reader: &mut Reader<'_, '_>, sections: &[Section], header: &Header, entry: Option<&Entry>) {
@@ -184,7 +184,7 @@ fn old_version(reader: &mut Reader<'_, '_>, sections: &[Section], header: &Heade
                 ("the file has no EDSVersion, so its EDS version is 3.0".to_owned(), reader.doc.name_span(&sections[0]))
             }
         };
-        reader.diagnostics.push(Diagnostic::new(&codes::OLD_EDS_VERSION, span, message));
+        reader.diagnostics.push(codes::OLD_EDS_VERSION.at(span, message));
     }
 }
 
@@ -443,7 +443,7 @@ fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> 
         None => {
             let message = format!("`{text}` is not a valid PPOffset");
             let label = "expected `offset` or `offset, difference`";
-            reader.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label(label));
+            reader.diagnostics.push(codes::ILLEGAL_NUMBER.at(span, message).label(label));
         }
     }
     segment

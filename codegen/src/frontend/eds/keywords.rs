@@ -1,7 +1,7 @@
 //! Keywords of an object, and the assignment of section entries to keywords.
 
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::Extensions;
 use crate::source::Origin;
 use crate::syntax::ini::{Entries, Entry, Section};
@@ -190,7 +190,7 @@ impl Reader<'_, '_> {
         let similar = similar.filter(|(distance, limit, _)| distance <= limit).min();
         if let Some((_, _, name)) = similar {
             let message = format!("the key `{key}` is similar to {name}, which the object lacks");
-            let found = Diagnostic::new(&codes::MISSPELLED_KEY, self.doc.key_span(entry), message);
+            let found = codes::MISSPELLED_KEY.at(self.doc.key_span(entry), message);
             self.diagnostics
                 .push(found.label("kept as an extension attribute").help("correct the key if it is misspelled"));
         }

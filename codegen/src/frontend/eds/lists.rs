@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::sections::List;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Device, Extensions, Group};
 use crate::number::hex16;
 use crate::source::Span;
@@ -62,11 +62,8 @@ pub(super) fn numbered(
     };
     if let (Some(((number, entry), expected)), true) = (gap, agrees) {
         let message = format!("this entry of the list has the number {number} instead of {expected}");
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
-                .label("the existing entries are used")
-                .help(NO_GAP),
-        );
+        let found = codes::LIST_COUNT.at(reader.doc.key_span(entry), message).label("the existing entries are used");
+        reader.diagnostics.push(found.help(NO_GAP));
     }
     entries.into_iter().map(|(_, entry)| entry).collect()
 }
@@ -133,17 +130,14 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
     if announced as usize != count {
         let message = format!("{key} is {announced}, but the number of entries in the list is {count}");
-        let found = Diagnostic::new(&codes::LIST_COUNT, span, message).label("the existing entries are used");
+        let found = codes::LIST_COUNT.at(span, message).label("the existing entries are used");
         reader.diagnostics.push(if has_gap { found.help(NO_GAP) } else { found.fix(count.to_string()) });
         return false;
     }
     if text.starts_with("0x") || text.starts_with("0X") {
         let message = format!("{key} is a hexadecimal number, which many tools cannot read");
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::HEX_COUNT, span, message)
-                .label(format!("read as {announced}"))
-                .fix(announced.to_string()),
-        );
+        let found = codes::HEX_COUNT.at(span, message).label(format!("read as {announced}"));
+        reader.diagnostics.push(found.fix(announced.to_string()));
     }
     true
 }
@@ -188,13 +182,11 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     for &(index, list, span) in &lists.listed {
         if !listed.insert(index) {
             let message = format!("{} is listed twice", hex16(index));
-            reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
+            reader.diagnostics.push(codes::LISTED_TWICE.at(span, message));
         }
         if !described.contains(index) {
             let message = format!("{} is listed, but the section [{index:04X}] is missing", hex16(index));
-            reader
-                .diagnostics
-                .push(Diagnostic::new(&codes::LISTED_NOT_DESCRIBED, span, message).label("the object is left out"));
+            reader.report(&codes::LISTED_NOT_DESCRIBED, span, message, "the object is left out");
         }
         let right = belongs(index);
         if right != Some(list) {
@@ -203,14 +195,14 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
                 Some(right) => format!("it belongs in [{}]", right.name()),
                 None => "objects in the data type area belong in no list".to_owned(),
             };
-            reader.diagnostics.push(Diagnostic::new(&codes::WRONG_LIST, span, message).label(label));
+            reader.diagnostics.push(codes::WRONG_LIST.at(span, message).label(label));
         }
     }
     not_listed(reader, lists, &listed, device);
     for (index, span) in std::mem::take(&mut reader.link_spans) {
         if !described.contains(index) {
             let message = format!("the link refers to {}, which the file does not describe", hex16(index));
-            reader.diagnostics.push(Diagnostic::new(&codes::DANGLING_LINK, span, message));
+            reader.diagnostics.push(codes::DANGLING_LINK.at(span, message));
         }
     }
 }
@@ -218,10 +210,10 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
 fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, device: &Device) {
     if lists.listed.is_empty() {
         if let Some(group) = device.groups.first() {
+            let found =
+                codes::NOT_LISTED.at(group.origin.span, "the object lists of the file are empty").label("first object");
             reader.diagnostics.push(
-                Diagnostic::new(&codes::NOT_LISTED, group.origin.span, "the object lists of the file are empty")
-                    .label("first object")
-                    .help("list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
+                found.help("list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
             );
         }
         return;
@@ -230,7 +222,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
         if !listed.contains(index) {
             let message = format!("object {} is described, but is in no object list", hex16(index));
-            reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
+            reader.diagnostics.push(codes::NOT_LISTED.at(group.origin.span, message));
         }
     }
 }

@@ -8,7 +8,7 @@ use super::lists;
 use super::object::{in_order_of_file, ObjectSections};
 use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
 use crate::ir::{Binding, Device, Group, Item, Module, SubExtension};
 use crate::number::hex16;
@@ -60,7 +60,7 @@ fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>
     };
     if announced as usize != described {
         let message = format!("the file declares {}, but describes {described}", count_of(announced, "module"));
-        reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message));
+        reader.diagnostics.push(codes::UNRESOLVED_MODULE.at(span, message));
     }
 }
 
@@ -77,7 +77,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
             clash(reader, &group, device);
             if !fixed.contains_key(&index) {
                 let message = format!("object {} is not listed in [M{number}FixedObjects]", hex16(index));
-                reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
+                reader.diagnostics.push(codes::NOT_LISTED.at(group.origin.span, message));
             }
             module.fixed_objects.push(group);
         }
@@ -90,7 +90,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
         let origin = extension.template.origin.span;
         if !extends.contains_key(&index) {
             let message = format!("object {} is not listed in [M{number}SubExtends]", hex16(index));
-            reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, origin, message));
+            reader.diagnostics.push(codes::SUB_EXTEND.at(origin, message));
         }
         extended_object(reader, index, origin, device);
         module.sub_extensions.push(extension);
@@ -134,7 +134,7 @@ fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Mod
         if indices.insert(index, entry).is_some() {
             let message = format!("{} is listed twice", hex16(index));
             let span = reader.doc.value_span(&entry);
-            reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
+            reader.diagnostics.push(codes::LISTED_TWICE.at(span, message));
         }
     }
     reader.take_comments(&mut module.extensions);
@@ -151,9 +151,7 @@ fn missing(
         if !exists(*index) {
             let span = reader.doc.value_span(entry);
             let message = format!("the section {} is missing", section_name(*index));
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("this entry declares the section"),
-            );
+            reader.report(&codes::UNRESOLVED_MODULE, span, message, "this entry declares the section");
         }
     }
 }
@@ -163,18 +161,15 @@ fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: 
     let Some(object) = device.object(index) else { return };
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
         let message = format!("object {} of the device is a {}, which has no sub-indices", hex16(index), code.name());
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::SUB_EXTEND, span, message).note_at(object.origin.span, "description in the device"),
-        );
+        let found = codes::SUB_EXTEND.at(span, message);
+        reader.diagnostics.push(found.note_at(object.origin.span, "description in the device"));
     }
 }
 
 fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
     let Some(object) = group.index().and_then(|index| device.object(index)) else { return };
-    reader.diagnostics.push(
-        Diagnostic::new(&codes::MODULE_INDEX_CLASH, group.origin.span, "the device already has this object")
-            .note_at(object.origin.span, "description in the device"),
-    );
+    let found = codes::MODULE_INDEX_CLASH.at(group.origin.span, "the device already has this object");
+    reader.diagnostics.push(found.note_at(object.origin.span, "description in the device"));
 }
 
 fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) -> SubExtension {
@@ -199,7 +194,7 @@ fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) 
 fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
     let mut report = |span, message: String, label| {
         let help = "write the number of sub-indices, or `0;` and the number of bits";
-        reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label(label).help(help));
+        reader.diagnostics.push(codes::SUB_EXTEND.at(span, message).label(label).help(help));
     };
     let Some(entry) = raw.more[0].filter(|entry| !reader.doc.value(entry).is_empty()) else {
         let message = "the key Count is missing";
@@ -224,7 +219,7 @@ fn obj_extend(reader: &mut Reader<'_, '_>, entry: &Entry) -> bool {
     let value = number::parse(text, &[]).int();
     if !text.is_empty() && !matches!(value, Some(0 | 1)) {
         let message = format!("ObjExtend is `{text}`, expected 0 or 1");
-        reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label("read as 0"));
+        reader.diagnostics.push(codes::SUB_EXTEND.at(span, message).label("read as 0"));
     }
     value == Some(1)
 }

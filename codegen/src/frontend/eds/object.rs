@@ -5,7 +5,7 @@ use super::keywords::{Key, Raw, OF_A_CONFIGURATION, OF_A_VALUE, OF_MANY_VALUES};
 use super::lists;
 use super::reader::{Fixed, Reader};
 use super::sections::Refinement;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, ObjectType, Terms};
 use crate::frontend::canopen::value::Role;
@@ -61,15 +61,13 @@ impl<'a> Reader<'a, '_> {
         if orphan {
             let (sub, first) = sections.subs[0];
             group.origin = Origin { span: self.doc.name_span(&first), line: first.line };
-            self.diagnostics.push(
-                Diagnostic::new(
-                    &codes::ORPHAN_SUB,
+            let found = codes::ORPHAN_SUB
+                .at(
                     group.origin.span,
                     format!("the section [{index:04X}sub{sub:X}] belongs to an object that the file does not describe"),
                 )
-                .label(format!("the section [{index:04X}] is missing; read as part of a RECORD"))
-                .help("add the section of the object, with ObjectType and SubNumber"),
-            );
+                .label(format!("the section [{index:04X}] is missing; read as part of a RECORD"));
+            self.diagnostics.push(found.help("add the section of the object, with ObjectType and SubNumber"));
         }
         self.name(raw.get(Key::ParameterName), &mut group.name, &mut group.name_at);
         let compact = self.compact_count(&raw);
@@ -138,10 +136,8 @@ impl<'a> Reader<'a, '_> {
             }
             if self.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
                 let message = format!("{} has no meaning for this object", self.doc.key(entry));
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::NOT_ALLOWED_ENTRY, self.doc.key_span(entry), message)
-                        .label("kept as an extension attribute"),
-                );
+                let found = codes::NOT_ALLOWED_ENTRY.at(self.doc.key_span(entry), message);
+                self.diagnostics.push(found.label("kept as an extension attribute"));
             }
             extensions.push(Extension { key: self.doc.key(entry).into(), value: text.into(), span });
         }
@@ -326,11 +322,8 @@ impl<'a> Reader<'a, '_> {
             Some(number) => Some(self.type_by_code(number, span)),
             None => {
                 let message = format!("`{text}` is not the code of a data type");
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::UNKNOWN_DATA_TYPE, span, message)
-                        .label("kept as read-only raw bytes")
-                        .help("write the code of a basic type, such as 0x0007 for UNSIGNED32"),
-                );
+                let found = codes::UNKNOWN_DATA_TYPE.at(span, message).label("kept as read-only raw bytes");
+                self.diagnostics.push(found.help("write the code of a basic type, such as 0x0007 for UNSIGNED32"));
                 None
             }
         }
@@ -343,11 +336,9 @@ impl<'a> Reader<'a, '_> {
             ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "the object has CompactSubObj, but no DataType"),
             _ => (&codes::MISSING_DATA_TYPE, "DataType is missing"),
         };
-        self.diagnostics.push(
-            Diagnostic::new(kind, span, message)
-                .label("kept as read-only raw bytes")
-                .help("add a DataType with the code of a basic type, such as `DataType=0x0007` for UNSIGNED32"),
-        );
+        let found = kind.at(span, message).label("kept as read-only raw bytes");
+        self.diagnostics
+            .push(found.help("add a DataType with the code of a basic type, such as `DataType=0x0007` for UNSIGNED32"));
         None
     }
 
@@ -369,8 +360,7 @@ impl<'a> Reader<'a, '_> {
                 ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => Access::ReadOnly,
                 _ => {
                     let message = "AccessType is missing";
-                    self.diagnostics
-                        .push(Diagnostic::new(&codes::MISSING_ACCESS, span, message).label("kept read-only"));
+                    self.report(&codes::MISSING_ACCESS, span, message, "kept read-only");
                     Access::ReadOnly
                 }
             };
@@ -411,7 +401,7 @@ impl<'a> Reader<'a, '_> {
         if !(0..=254).contains(&count) {
             let message = format!("CompactSubObj is {text}, expected a number from 0 to 254");
             let label = if count > 0 { "read as 254" } else { "left out" };
-            self.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label(label));
+            self.diagnostics.push(codes::VALUE_NOT_ALLOWED.at(span, message).label(label));
         }
         (count > 0).then(|| count.min(254) as u8)
     }
@@ -426,10 +416,8 @@ impl<'a> Reader<'a, '_> {
         let announced = announced.as_int().unwrap_or(-1);
         if compact.is_some() {
             if announced > 0 {
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::COMPACT_AND_SUBS, span, "the object has both SubNumber and CompactSubObj")
-                        .label("described sub-indices are kept; CompactSubObj adds the others"),
-                );
+                let found = codes::COMPACT_AND_SUBS.at(span, "the object has both SubNumber and CompactSubObj");
+                self.diagnostics.push(found.label("described sub-indices are kept; CompactSubObj adds the others"));
             }
         } else {
             object::sub_number(group, announced, announced, span, &TERMS, self.diagnostics);
@@ -439,7 +427,7 @@ impl<'a> Reader<'a, '_> {
     fn no_sub_number(&mut self, raw: &Raw, compact: Option<u8>) {
         if compact.is_none() && raw.origin.line > 0 && self.diagnostics.wants(&codes::MISSING_ENTRY) {
             let message = "both SubNumber and CompactSubObj are missing";
-            self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, raw.origin.span, message));
+            self.diagnostics.push(codes::MISSING_ENTRY.at(raw.origin.span, message));
         }
     }
 
@@ -462,10 +450,9 @@ impl<'a> Reader<'a, '_> {
                 "the section [{}] belongs to an object that the file does not describe",
                 self.doc.name(section)
             );
-            self.diagnostics.push(
-                Diagnostic::new(&codes::NAME_WITHOUT_SUB, span, message)
-                    .label(format!("the section [{index:04X}] is missing; kept as extension attributes")),
-            );
+            let found = codes::NAME_WITHOUT_SUB.at(span, message);
+            self.diagnostics
+                .push(found.label(format!("the section [{index:04X}] is missing; kept as extension attributes")));
             self.orphan_sections.push(*section);
         }
     }

@@ -1,7 +1,7 @@
 //! Reader of an EDS or DCF file, and functions that read single entries.
 
 use super::keywords::{Key, KEYS};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
 use crate::frontend::canopen::value::Converter;
 use crate::ir::{CompactString, Extension, Extensions, Type};
@@ -52,12 +52,23 @@ pub(super) enum Fixed {
 const COMMENT: CompactString = CompactString::const_new(";");
 
 fn repeated(later: Span, key: &str) -> Diagnostic {
-    Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("the key `{key}` occurs twice in this section"))
+    codes::DUPLICATE_KEY.at(later, format!("the key `{key}` occurs twice in this section"))
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn converter(&mut self) -> Converter<'_> {
         Converter { diagnostics: self.diagnostics, aliases: self.aliases }
+    }
+
+    /// Reports a diagnostic with a message and a label at `span`.
+    pub(super) fn report(
+        &mut self,
+        code: &'static Code,
+        span: Span,
+        message: impl Into<String>,
+        label: impl Into<String>,
+    ) {
+        self.diagnostics.push(code.at(span, message).label(label));
     }
 
     /// Returns the value of an entry that is not free text, without its comment and quotation marks. Adds the comment
@@ -104,8 +115,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         if let Some((code, message)) = found {
             // The span includes the spaces before the comment, so that the fix removes them.
             let marked = Span::new(rest.file, rest.start - (cut - kept.len()) as u32, rest.end);
-            self.diagnostics
-                .push(Diagnostic::new(code, marked, message).label(format!("the value is `{kept}`")).fix(""));
+            self.diagnostics.push(code.at(marked, message).label(format!("the value is `{kept}`")).fix(""));
         }
         let comment = text[cut + 1..].trim();
         if !comment.is_empty() {
@@ -145,11 +155,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         };
         let key = self.doc.key(entry);
         let read_as = if value == Some(true) { "1" } else { "0" };
-        self.diagnostics.push(
-            Diagnostic::new(&codes::NOT_BOOLEAN, span, format!("{key} is `{text}`, expected 0 or 1"))
-                .label(format!("read as {read_as}"))
-                .fix(read_as),
-        );
+        let found = codes::NOT_BOOLEAN.at(span, format!("{key} is `{text}`, expected 0 or 1"));
+        self.diagnostics.push(found.label(format!("read as {read_as}")).fix(read_as));
         value.unwrap_or(false)
     }
 
@@ -161,7 +168,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             _ => format!("{count} flags are hexadecimal numbers instead of 0 or 1"),
         };
         let label = if count == 1 { "read as a number" } else { "first of these flags; all are read as numbers" };
-        self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
+        self.diagnostics.push(codes::NOT_BOOLEAN.at(span, message).label(label));
     }
 
     /// Reads a number without reporting a nonstandard spelling, which is reported when the entry itself is read.
@@ -196,7 +203,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         if value.is_none() {
             let key = self.doc.key(entry);
             let message = format!("{key} is `{text}`, expected a number from 0 to {max}");
-            self.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label("left out"));
+            self.diagnostics.push(codes::ILLEGAL_NUMBER.at(span, message).label("left out"));
         }
         value
     }
@@ -213,11 +220,8 @@ impl<'a, 'd> Reader<'a, 'd> {
         let index = number.int().and_then(|index| u16::try_from(index).ok());
         if index.is_none() {
             let message = format!("`{text}` is not an object index");
-            self.diagnostics.push(
-                Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message)
-                    .label("left out")
-                    .help("write an index from 0x1000 to 0xFFFF"),
-            );
+            let found = codes::ILLEGAL_NUMBER.at(span, message).label("left out");
+            self.diagnostics.push(found.help("write an index from 0x1000 to 0xFFFF"));
         }
         index
     }
@@ -262,10 +266,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
         if self.diagnostics.wants(&codes::UNKNOWN_KEY) {
             let message = format!("CiA 306 does not define the key `{key}`");
-            self.diagnostics.push(
-                Diagnostic::new(&codes::UNKNOWN_KEY, self.doc.key_span(entry), message)
-                    .label("kept as an extension attribute"),
-            );
+            self.report(&codes::UNKNOWN_KEY, self.doc.key_span(entry), message, "kept as an extension attribute");
         }
         extensions.push(Extension { key: key.into(), value: value.into(), span });
     }
@@ -274,7 +275,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn missing_section(&mut self, name: &str) {
         let file = self.doc.sections().first().map_or(Span::default(), |first| self.doc.name_span(first)).file;
         let message = format!("the section [{name}] is missing");
-        self.diagnostics.push(Diagnostic::new(&codes::MISSING_SECTION, Span::new(file, 0, 0), message));
+        self.diagnostics.push(codes::MISSING_SECTION.at(Span::new(file, 0, 0), message));
     }
 
     /// Reports a mandatory entry that a section lacks. `sections` are all sections with the same name.
@@ -283,7 +284,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         if self.diagnostics.wants(&codes::MISSING_ENTRY) {
             let message = format!("the section [{}] has no key `{key}`", self.doc.name(section));
             let span = self.doc.name_span(section);
-            self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, span, message));
+            self.diagnostics.push(codes::MISSING_ENTRY.at(span, message));
         }
     }
 
@@ -300,7 +301,7 @@ impl<'a, 'd> Reader<'a, 'd> {
 
     pub(super) fn duplicate_section(&mut self, first: &Section, later: &Section, label: &str) {
         let message = format!("the section [{}] occurs twice", self.doc.name(later));
-        let found = Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message).label(label);
+        let found = codes::DUPLICATE_SECTION.at(self.doc.name_span(later), message).label(label);
         self.diagnostics.push(found.note_at(self.doc.name_span(first), "first occurrence"));
     }
 
@@ -325,21 +326,18 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
         if !std::mem::replace(&mut self.copies_exceeded, true) {
             let message = "copied texts would exceed the size limit of the description";
-            self.diagnostics.push(
-                Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message)
-                    .label("further copies are left out")
-                    .help("shorten the name of the section, or the texts of the object that has CompactSubObj"),
-            );
+            let found = codes::INPUT_TOO_LARGE.at(span, message).label("further copies are left out");
+            self.diagnostics
+                .push(found.help("shorten the name of the section, or the texts of the object that has CompactSubObj"));
         }
         false
     }
 
     pub(super) fn too_many_derived(&mut self, span: Span) {
-        self.diagnostics.push(Diagnostic::new(
-            &codes::INPUT_TOO_LARGE,
-            span,
-            format!("CompactSubObj adds more than {} sub-indices", limits::MAX_DERIVED_ITEMS),
-        ));
+        self.diagnostics.push(
+            codes::INPUT_TOO_LARGE
+                .at(span, format!("CompactSubObj adds more than {} sub-indices", limits::MAX_DERIVED_ITEMS)),
+        );
     }
 
     pub(super) fn origin(&self, section: &Section) -> Origin {

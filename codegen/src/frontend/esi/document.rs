@@ -8,7 +8,7 @@ use super::pdos::Pdos;
 use super::reader::{Esi, Reader};
 use super::templates::Templates;
 use super::{diagnosis, info};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::declared_encoding;
 use crate::frontend::xml::Read;
 use crate::ir::Device;
@@ -38,7 +38,7 @@ pub(super) fn document(
         "EtherCATDiag" => messages_only(&mut reader, &root, description)?,
         name => {
             let message = format!("<{}> is not the root element of an ESI file", brief(name));
-            return Err(Box::new(Diagnostic::new(&codes::UNKNOWN_FORMAT, root.name_span(), message)));
+            return Err(Box::new(codes::UNKNOWN_FORMAT.at(root.name_span(), message)));
         }
     }
     after_root(&mut reader);

@@ -5,7 +5,7 @@ use super::object::{RawObject, RawSub};
 use super::reader::Reader;
 use super::types::Types;
 use crate::collections::{HashMap, HashMapExt};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::Type;
 use crate::number::hex8;
 use crate::text::brief;
@@ -96,12 +96,11 @@ fn sorted<'t, 'a>(
         reported += usize::from(twice);
         if twice && reported <= MAX_REPORTED {
             let message = format!("sub-index {} occurs twice", hex8(later.sub_index));
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, later.field.origin.span, message)
-                    .label("ignored")
-                    .note_at(earlier.field.origin.span, "this sub-item is used")
-                    .note_at(raw.origin.span, "object with this data type"),
-            );
+            let found = codes::ESI_DUPLICATE_OBJECT
+                .at(later.field.origin.span, message)
+                .label("ignored")
+                .note_at(earlier.field.origin.span, "this sub-item is used");
+            reader.diagnostics.push(found.note_at(raw.origin.span, "object with this data type"));
         }
         twice
     });
@@ -178,9 +177,8 @@ fn by_position_only(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &Ra
 }
 
 fn mismatch(reader: &mut Reader<'_, '_>, entry: &Entry<'_, '_>, sub: &RawSub<'_>, message: String, label: String) {
-    reader.diagnostics.push(
-        Diagnostic::new(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message)
-            .label(label)
-            .note_at(entry.field.name.span.or(entry.field.origin.span), "sub-item of the data type"),
-    );
+    let found = codes::SUB_ITEM_MISMATCH.at(sub.name.span.or(sub.origin.span), message).label(label);
+    reader
+        .diagnostics
+        .push(found.note_at(entry.field.name.span.or(entry.field.origin.span), "sub-item of the data type"));
 }

@@ -17,7 +17,7 @@ use super::object::{RawObject, RawSub};
 use super::reader::{Names, Reader};
 use super::types::Types;
 use super::value::{self, Role};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::etg::unit;
 use crate::frontend::xml::Given;
 use crate::ir::{Access, Binding, Fact, FactOrigin, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
@@ -55,11 +55,8 @@ pub(super) fn build<'a>(
         };
         if let Some(first) = groups.last().filter(|first| first.index() == Some(index)) {
             let message = format!("object {} occurs twice", hex16(index));
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::ESI_DUPLICATE_OBJECT, object.origin.span, message)
-                    .label("ignored")
-                    .note_at(first.origin.span, "this object is used"),
-            );
+            let found = codes::ESI_DUPLICATE_OBJECT.at(object.origin.span, message).label("ignored");
+            reader.diagnostics.push(found.note_at(first.origin.span, "this object is used"));
             continue;
         }
         let sub_items = subs.get_mut(object.subs.clone()).unwrap_or_default();

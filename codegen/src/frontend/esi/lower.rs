@@ -6,7 +6,7 @@ use super::items;
 use super::pdos::Pdos;
 use super::reader::Reader;
 use super::types::Types;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::etg::type_name;
 use crate::frontend::xml::Given;
 use crate::ir::{Group, PdoEntry, PdoEntryKind, ProcessData, Type, TypeDef};
@@ -63,8 +63,7 @@ pub(super) fn check_length(diagnostics: &mut Diagnostics, entry: &PdoEntry, ty: 
             if bits != entry.bits && entry.kind != PdoEntryKind::Padding && diagnostics.wants(&codes::ENTRY_LENGTH) =>
         {
             let message = format!("the PDO entry has {} bits, but {} has {bits}", entry.bits, ty.text);
-            diagnostics
-                .push(Diagnostic::new(&codes::ENTRY_LENGTH, ty.span, message).label("BitLen is used for the layout"));
+            diagnostics.push(codes::ENTRY_LENGTH.at(ty.span, message).label("BitLen is used for the layout"));
         }
         _ => {}
     }

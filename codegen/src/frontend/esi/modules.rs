@@ -10,7 +10,7 @@ use super::pdos::Pdos;
 use super::profile::Profiles;
 use super::reader::{Names, Reader};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Read;
 use crate::ir::{Catalog, CompactString, Device, Fit, Module, ModuleId, ModuleUse, Numbers, SlotNumbers};
 use crate::limits;
@@ -81,7 +81,7 @@ pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     for device in devices {
         if !known.plug(device, &mut left, &mut is_reported, diagnostics) {
             let message = "the slots of all devices accept more modules than the limit allows";
-            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, device.origin.span, message);
+            let diagnostic = codes::INPUT_TOO_LARGE.at(device.origin.span, message);
             diagnostics.push(diagnostic.label("this and later devices have no modules"));
             return;
         }
@@ -103,11 +103,8 @@ impl<'m> Known<'m> {
             let first = same.first().and_then(|&first| modules.get(first as usize));
             if let Some(first) = first.filter(|_| module.number != 0) {
                 let message = format!("two modules have the ident number {}", hex32(module.number));
-                diagnostics.push(
-                    Diagnostic::new(&codes::DUPLICATE_MODULE, module.origin.span, message)
-                        .label("both are kept")
-                        .note_at(first.origin.span, "first module"),
-                );
+                let found = codes::DUPLICATE_MODULE.at(module.origin.span, message).label("both are kept");
+                diagnostics.push(found.note_at(first.origin.span, "first module"));
             }
             same.push(at as u32);
             if !module.class.is_empty() {
@@ -166,7 +163,7 @@ fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
 /// Reports a slot into which no module fits. Only the first such diagnostic of a catalog has a help text.
 fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
-    let found = Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message).label("the slot stays empty");
+    let found = codes::NO_MODULE_FITS.at(device.origin.span, message).label("the slot stays empty");
     diagnostics.push(match is_first {
         true => found.help("check whether InfoReference names a file with the modules"),
         false => found,

@@ -1,7 +1,7 @@
 //! Reads the numbers of ETG.2000 (HexDecValue), including nonstandard spellings in real files.
 
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
 use crate::number::hex;
 use crate::syntax::xml::Tag;
@@ -112,7 +112,7 @@ impl<'a> Reader<'a, '_> {
                     (&codes::ESI_VALUE, format!("`{text}` has two prefixes"), format!("#x{}", &given.text[4..]))
                 }
             };
-            let found = Diagnostic::new(code, given.span, message).label(format!("read as {}", hex(number.value)));
+            let found = code.at(given.span, message).label(format!("read as {}", hex(number.value)));
             self.diagnostics.push(found.fix(fix));
         }
         Some(number)
@@ -163,11 +163,8 @@ impl<'a> Reader<'a, '_> {
             }
         }
         if count % 2 == 1 {
-            self.diagnostics.push(
-                Diagnostic::new(&codes::ODD_HEX, given.span, "the number of hexadecimal digits is odd")
-                    .label("read with a leading zero")
-                    .fix(format!("0{}", given.text)),
-            );
+            let found = codes::ODD_HEX.at(given.span, "the number of hexadecimal digits is odd");
+            self.diagnostics.push(found.label("read with a leading zero").fix(format!("0{}", given.text)));
         }
         Some(octets)
     }

@@ -10,7 +10,7 @@ use super::document::document;
 use super::lower::check_length;
 use super::types::guessed;
 use crate::collections::{HashMap, HashMapExt, HashSet};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Catalog, CodeTable, Device, Extension, Group, Shape, Type, TypeDef, TypeId};
 use crate::number::hex16;
 use crate::source::{References, Source, Span};
@@ -148,7 +148,7 @@ fn open(
         Ok(source) => source,
         Err(refusal) => {
             let message = format!("the file `{}` was not read: {refusal}", reference.name);
-            let found = Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message);
+            let found = codes::REFERENCED_FILE.at(reference.span, message);
             let found = found.label("the content of the file is missing");
             // Only the first unreadable file is reported with the help text.
             diagnostics.push(match std::mem::replace(is_reported, true) {
@@ -165,11 +165,8 @@ fn open(
     references.add(source);
     if let Err(stop) = outcome {
         let message = format!("the file `{}` was not read: {}", reference.name, stop.message);
-        diagnostics.push(
-            Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message)
-                .label("the content of the file is missing")
-                .note_at(stop.span, "reading ends here"),
-        );
+        let found = codes::REFERENCED_FILE.at(reference.span, message).label("the content of the file is missing");
+        diagnostics.push(found.note_at(stop.span, "reading ends here"));
         return None;
     }
     Some((read, length))
@@ -219,8 +216,7 @@ fn attach(
     if !found {
         let what = if is_dictionary { "dictionary" } else { "diagnosis messages" };
         let message = format!("the file `{}` has no {what}", reference.name);
-        diagnostics
-            .push(Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message).label("the file is ignored"));
+        diagnostics.push(codes::REFERENCED_FILE.at(reference.span, message).label("the file is ignored"));
         return;
     }
     let cost = if is_dictionary { content.dictionary } else { content.messages };
@@ -281,8 +277,7 @@ fn affordable(budget: &mut Budget, cost: Cost, reference: &Reference, diagnostic
     let affordable = budget.take(cost);
     if !affordable {
         let message = "copies of referenced files would exceed the size limit of the description";
-        diagnostics
-            .push(Diagnostic::new(&codes::INPUT_TOO_LARGE, reference.span, message).label("this reference is ignored"));
+        diagnostics.push(codes::INPUT_TOO_LARGE.at(reference.span, message).label("this reference is ignored"));
     }
     affordable
 }
@@ -303,15 +298,9 @@ fn merge(types: &mut Vec<TypeDef>, groups: &mut Vec<Group>, dictionary: &Device,
     groups.dedup_by(|later, earlier| {
         let twice = later.index() == earlier.index();
         if let (true, Some(index)) = (twice, later.index()) {
-            diagnostics.push(
-                Diagnostic::new(
-                    &codes::ESI_DUPLICATE_OBJECT,
-                    later.origin.span,
-                    format!("object {} occurs twice", hex16(index)),
-                )
-                .label("ignored")
-                .note_at(earlier.origin.span, "this object is used"),
-            );
+            let found =
+                codes::ESI_DUPLICATE_OBJECT.at(later.origin.span, format!("object {} occurs twice", hex16(index)));
+            diagnostics.push(found.label("ignored").note_at(earlier.origin.span, "this object is used"));
         }
         twice
     });

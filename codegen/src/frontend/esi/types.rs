@@ -10,7 +10,7 @@ use thin_vec::ThinVec;
 use super::data_type::{Dimension, RawField, RawType};
 use super::reader::{Names, Reader};
 use crate::collections::{HashMap, HashMapExt};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, EnumValue, Field, Shape, Type, TypeDef, TypeId};
@@ -165,11 +165,9 @@ impl<'a> Types<'a> {
         let first = *self.by_name.entry(ty.name.text.clone()).or_insert(at as u32) as usize;
         if let Some(first) = raw.get(first).filter(|_| first != at) {
             let message = format!("the data type `{}` has two definitions", brief(&ty.name.text));
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::DUPLICATE_TYPE, ty.name.span, message)
-                    .label("references resolve to the first definition")
-                    .note_at(first.name.span, "first definition"),
-            );
+            let found =
+                codes::DUPLICATE_TYPE.at(ty.name.span, message).label("references resolve to the first definition");
+            reader.diagnostics.push(found.note_at(first.name.span, "first definition"));
         }
     }
 
@@ -226,11 +224,10 @@ impl<'a> Types<'a> {
             None => {}
         }
         let message = format!("the definition of the data type `{}` contains only its name", brief(&ty.name.text));
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
-                .label("kept as raw bytes")
-                .help("add a BaseType, ArrayInfo, SubItems or EnumInfos, or use the name of a basic type"),
-        );
+        let found = codes::UNRESOLVED_TYPE.at(ty.name.span.or(ty.origin.span), message).label("kept as raw bytes");
+        reader
+            .diagnostics
+            .push(found.help("add a BaseType, ArrayInfo, SubItems or EnumInfos, or use the name of a basic type"));
         (Shape::Alias(Type::Opaque(ty.code)), ty.bits)
     }
 
@@ -478,8 +475,7 @@ fn spelled(diagnostics: &mut Diagnostics, spelling: Spelling, name: &Given<'_>, 
     };
     if diagnostics.wants(code) {
         let message = format!("`{}` is not the name of an ESI base data type", brief(&name.text));
-        diagnostics
-            .push(Diagnostic::new(code, name.span, message).label(format!("read as {}", type_name::name_of(ty))));
+        diagnostics.push(code.at(name.span, message).label(format!("read as {}", type_name::name_of(ty))));
     }
 }
 
@@ -492,11 +488,8 @@ fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
             reader.report(&codes::SUB_ITEM_NAME, field.origin.span, "this sub-item has no name", label);
         } else if let Some(earlier) = seen.insert(&field.name) {
             let message = format!("two sub-items have the name `{}`", brief(&field.name.text));
-            reader.diagnostics.push(
-                Diagnostic::new(&codes::SUB_ITEM_NAME, field.name.span, message)
-                    .label("distinguished by their sub-indices")
-                    .note_at(earlier, "first sub-item with this name"),
-            );
+            let found = codes::SUB_ITEM_NAME.at(field.name.span, message).label("distinguished by their sub-indices");
+            reader.diagnostics.push(found.note_at(earlier, "first sub-item with this name"));
         }
     }
 }
@@ -539,7 +532,7 @@ fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field])
     if let Some([one, other]) = shared {
         let (first, second) = (brief(&one.0.name), brief(&other.0.name));
         let message = format!("the sub-items `{first}` and `{second}` overlap at bits {}", extents(one.0, other.0));
-        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, other.1.origin.span, message).label("both are kept");
+        let found = codes::SUB_ITEM_PLACE.at(other.1.origin.span, message).label("both are kept");
         let found = found.note_at(one.1.origin.span, "other sub-item");
         reader.diagnostics.push(found.help("correct BitOffs or BitSize of one of the two sub-items"));
     }
@@ -547,7 +540,7 @@ fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field])
     if let Some((field, raw)) = order.iter().find(|(field, _)| end(field) > bits) {
         let name = brief(&field.name);
         let message = format!("the sub-item `{name}` ends at bit {}, but the data type has {bits} bits", end(field));
-        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, raw.origin.span, message).label("kept unchanged");
+        let found = codes::SUB_ITEM_PLACE.at(raw.origin.span, message).label("kept unchanged");
         reader
             .diagnostics
             .push(found.help("increase BitSize of the data type, or correct BitOffs or BitSize of the sub-item"));
@@ -626,9 +619,6 @@ pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
 /// Reports a type name that has no definition.
 fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
     let message = format!("the data type `{}` is not defined", brief(&name.text));
-    diagnostics.push(
-        Diagnostic::new(&codes::UNRESOLVED_TYPE, name.span, message)
-            .label("kept as raw bytes")
-            .help("define the type in DataTypes, or use the name of a basic type such as UINT"),
-    );
+    let found = codes::UNRESOLVED_TYPE.at(name.span, message).label("kept as raw bytes");
+    diagnostics.push(found.help("define the type in DataTypes, or use the name of a basic type such as UINT"));
 }

@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 use super::info_value::{Form, RawValue};
 use super::number;
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{CompactString, Type, Value};
 use crate::text::{brief, count_of};
 
@@ -146,11 +146,8 @@ fn fraction(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type) -> Value 
     let whole = given.text.split_once('.').filter(|(_, rest)| rest.bytes().all(|digit| digit == b'0'));
     if let Some(number) = whole.and_then(|(whole, _)| number::parse(whole)) {
         let message = format!("the value is a decimal fraction, but the type is {ty}");
-        reader.diagnostics.push(
-            Diagnostic::new(&codes::VALUE_FORM, given.span, message)
-                .label(format!("read as {}", number.value))
-                .fix(number.value.to_string()),
-        );
+        let found = codes::VALUE_FORM.at(given.span, message).label(format!("read as {}", number.value));
+        reader.diagnostics.push(found.fix(number.value.to_string()));
         return Value::Int(number.value);
     }
     let message = format!("`{}` is not a value of the type {ty}", brief(&given.text));

@@ -160,5 +160,5 @@ fn not_gsdml(root: &Tag<'_>) -> Box<Diagnostic> {
     let message = format!("<{}> is not the root element of a GSDML file", brief(root.name));
     let help =
         "check that the file has <ISO15745Profile> as its root element, with <ApplicationProcess> in <ProfileBody>";
-    Box::new(Diagnostic::new(&codes::NOT_A_GSDML, root.name_span(), message).help(help))
+    Box::new(codes::NOT_A_GSDML.at(root.name_span(), message).help(help))
 }

@@ -2,7 +2,7 @@
 
 use super::reader::Reader;
 use super::resolve::Resolver;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Read;
 use crate::ir::{Catalog, CompactString, Documentation};
 use crate::source::{FileId, Span};
@@ -97,18 +97,13 @@ impl Header {
         let name = crate::text::file_name(name);
         let Some(named) = version_of_name(name) else {
             let message = format!("`{name}` is not a GSDML file name");
-            diagnostics.push(
-                Diagnostic::new(&codes::GSDML_FILE_NAME, Span::new(file, 0, 0), message).help(
-                    "rename the file to the form `GSDML-V2.35-Vendor-Device-20200131.xml`, optionally with `-hhmmss` after the date",
-                ),
-            );
+            diagnostics.push(codes::GSDML_FILE_NAME.at(Span::new(file, 0, 0), message).help("rename the file to the form `GSDML-V2.35-Vendor-Device-20200131.xml`, optionally with `-hhmmss` after the date"));
             return;
         };
         if let Some((version, span)) = &self.version {
             if version != named {
                 let message = format!("the file name has version {named}, but the schema has version {version}");
-                diagnostics
-                    .push(Diagnostic::new(&codes::GSDML_FILE_NAME, *span, message).label("this version is used"));
+                diagnostics.push(codes::GSDML_FILE_NAME.at(*span, message).label("this version is used"));
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{Catalog, ModuleId, ModuleUse, SlotNumbers, SubmoduleId, SubmoduleUse};
 use crate::source::Span;
@@ -117,9 +117,6 @@ impl<'a> Links<'a> {
 /// Reports a reference to an element that does not exist.
 pub(super) fn unresolved(element: &str, target: &Given<'_>, diagnostics: &mut Diagnostics) {
     let message = format!("the file has no {element} with the ID `{}`", brief(&target.text));
-    diagnostics.push(
-        Diagnostic::new(&codes::UNRESOLVED_TARGET, target.span, message)
-            .label("the reference is ignored")
-            .help("check the spelling; identifiers are case-sensitive"),
-    );
+    let found = codes::UNRESOLVED_TARGET.at(target.span, message).label("the reference is ignored");
+    diagnostics.push(found.help("check the spelling; identifiers are case-sensitive"));
 }

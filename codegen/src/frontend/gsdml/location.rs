@@ -2,7 +2,7 @@
 
 use super::data_type::DataType;
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::xml::Given;
 use crate::ir::Type;
 use crate::syntax::xml::Tag;
@@ -69,7 +69,7 @@ impl<'a> Reader<'a, '_> {
             self.report(&codes::UNKNOWN_GSDML_TYPE, given.span, message, format!("read as `{name}`"));
         } else {
             let message = format!("`{}` is not a data type of GSDML", brief(&given.text));
-            let diagnostic = Diagnostic::new(&codes::UNKNOWN_GSDML_TYPE, given.span, message);
+            let diagnostic = codes::UNKNOWN_GSDML_TYPE.at(given.span, message);
             let diagnostic = diagnostic.label("kept as raw bytes of the declared length");
             self.diagnostics.push(match given.text.as_ref() {
                 "Float" | "Real" | "REAL" => diagnostic.help("write `Float32` for a 4-byte number"),

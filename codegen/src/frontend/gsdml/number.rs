@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::xml::Given;
 use crate::ir::Numbers;
 use crate::number::{self, hex32};
@@ -28,11 +28,8 @@ impl<'a> Reader<'a, '_> {
         match value {
             Some(value) => {
                 let message = format!("`{}` is hexadecimal, but GSDML requires a decimal number", given.text);
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
-                        .label(format!("read as {value}"))
-                        .fix(value.to_string()),
-                );
+                let found = codes::GSDML_VALUE.at(given.span, message).label(format!("read as {value}"));
+                self.diagnostics.push(found.fix(value.to_string()));
             }
             None => self.bad(given, what, format!("left out; expected a number from 0 to {max}")),
         }
@@ -59,11 +56,8 @@ impl<'a> Reader<'a, '_> {
         match value {
             Some(value) => {
                 let message = format!("`{}` has no prefix `0x`", given.text);
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
-                        .label(format!("read as {}", hex32(value)))
-                        .fix(hex32(value)),
-                );
+                let found = codes::GSDML_VALUE.at(given.span, message).label(format!("read as {}", hex32(value)));
+                self.diagnostics.push(found.fix(hex32(value)));
             }
             None => self.bad(given, what, format!("left out; expected `0x` and a number up to {}", number::hex(max))),
         }
@@ -94,7 +88,7 @@ impl<'a> Reader<'a, '_> {
         if let Some(part) = broken {
             let message = format!("`{part}` is neither a number up to 65535 nor an ascending range `first..last`");
             let label = if range(part).is_some() { "read with the limits swapped" } else { "left out" };
-            self.diagnostics.push(Diagnostic::new(&codes::GSDML_VALUE, given.span, message).label(label));
+            self.diagnostics.push(codes::GSDML_VALUE.at(given.span, message).label(label));
         }
         Numbers(list)
     }

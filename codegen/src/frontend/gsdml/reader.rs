@@ -3,7 +3,7 @@
 use super::links::{ElementKind, Links};
 use super::text_references::TextReferences;
 use super::types::Types;
-use crate::diagnostics::{codes, Code, Diagnostic};
+use crate::diagnostics::{codes, Code};
 use crate::frontend::xml::{self, Given, Read};
 use crate::ir::{CompactString, Documentation, Item};
 use crate::syntax::xml::Tag;
@@ -100,7 +100,7 @@ impl<'a> Reader<'a, '_> {
         }
         if let Some(first) = self.format.links.register(kind, id, position) {
             let message = format!("another <{}> has the ID `{}`", brief(tag.name), brief(&id.text));
-            let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, id.span, message);
+            let diagnostic = codes::DUPLICATE_ID.at(id.span, message);
             self.diagnostics.push(diagnostic.label("references resolve to the first one").note_at(first, "first one"));
         }
     }

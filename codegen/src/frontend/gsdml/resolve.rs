@@ -7,7 +7,7 @@ use compact_str::{format_compact, CompactString};
 use super::text_list::TextList;
 use super::text_references::TextReferences;
 use crate::collections::{HashMap, HashSet};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{
     Catalog, Device, Documentation, Group, IoData, LocalText, Menu, Module, Shape, Submodule, SubslotName, Texts,
@@ -163,8 +163,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
             }
         } else if self.missing.insert(at) {
             let message = format!("the text `{}` is not in the text list", brief(&given.text));
-            let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, given.span, message);
-            self.diagnostics.push(diagnostic.label("the identifier is used as the name"));
+            self.diagnostics
+                .push(codes::MISSING_TEXT.at(given.span, message).label("the identifier is used as the name"));
         }
         *name = match suffix {
             "" => given.text.as_ref().into(),
@@ -200,8 +200,8 @@ impl<'a, 'd> Resolver<'a, 'd> {
         }
         if std::mem::take(&mut self.budget) > 0 {
             let message = "copied texts would exceed the size limit of the description";
-            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-            self.diagnostics.push(diagnostic.label("identifiers are used as further names"));
+            self.diagnostics
+                .push(codes::INPUT_TOO_LARGE.at(span, message).label("identifiers are used as further names"));
         }
         false
     }

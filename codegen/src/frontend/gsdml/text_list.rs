@@ -6,7 +6,7 @@ use compact_str::CompactString;
 
 use super::reader::Reader;
 use crate::collections::{HashMap, HashSet};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{LocalText, Texts, UnusedText};
 use crate::source::Span;
@@ -95,7 +95,7 @@ impl<'a> TextList<'a> {
         let name = CompactString::from(brief(&reader.single(parent, "lang")?.text));
         if let Some(&first) = self.seen.get(&name) {
             let message = format!("the language `{name}` has two lists of texts");
-            let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
+            let diagnostic = codes::DUPLICATE_ID.at(parent.span, message);
             reader.diagnostics.push(diagnostic.label("the lists are merged").note_at(first, "first list"));
         }
         self.seen.insert(name.clone(), parent.span);
@@ -172,8 +172,8 @@ impl<'a> TextList<'a> {
         let name = self.languages.get(language as usize).map_or("", CompactString::as_str);
         let texts = if missing == 1 { "text has" } else { "texts have" };
         let message = format!("{missing} {texts} no translation in the language `{name}`");
-        let mut diagnostic = Diagnostic::new(&codes::MISSING_TRANSLATION, tag.span, message)
-            .label("the primary language is used instead");
+        let mut diagnostic =
+            codes::MISSING_TRANSLATION.at(tag.span, message).label("the primary language is used instead");
         let last = |entry: &Entry<'a>| entry.translations.and_then(|(_, last)| self.translations.get(last as usize));
         let translated = |entry: &Entry<'a>| last(entry).is_some_and(|last| last.language == language);
         // Among the first `count + 1` entries, at least one has no text in this language, so no further entries are
@@ -211,7 +211,7 @@ impl<'a> TextList<'a> {
         for entry in &self.entries {
             if entry.primary.is_none() {
                 let message = format!("the primary language has no text `{}`", brief(&entry.id));
-                let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, entry.span, message);
+                let diagnostic = codes::MISSING_TEXT.at(entry.span, message);
                 diagnostics.push(diagnostic.label("the first translation is used instead"));
             }
             if entry.finished.is_none() {
@@ -223,8 +223,7 @@ impl<'a> TextList<'a> {
     fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, unused: &mut Vec<UnusedText>) {
         if diagnostics.wants(&codes::UNUSED_TEXT) {
             let message = format!("the text `{}` is not used", brief(&entry.id));
-            let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
-            diagnostics.push(diagnostic.label("kept"));
+            diagnostics.push(codes::UNUSED_TEXT.at(entry.span, message).label("kept"));
         }
         let (name, texts) = self.finish(entry);
         let text = if entry.primary.is_some() { name } else { CompactString::default() };
@@ -257,11 +256,8 @@ impl<'a> TextList<'a> {
 
 fn repeated(diagnostics: &mut Diagnostics, span: Span, first: Span, id: &str) {
     let message = format!("the text `{}` occurs twice in one language", brief(id));
-    diagnostics.push(
-        Diagnostic::new(&codes::DUPLICATE_ID, span, message)
-            .label("left out; the first one is used")
-            .note_at(first, "first occurrence"),
-    );
+    let found = codes::DUPLICATE_ID.at(span, message).label("left out; the first one is used");
+    diagnostics.push(found.note_at(first, "first occurrence"));
 }
 
 fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<Text<'a>>> {

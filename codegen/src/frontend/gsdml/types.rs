@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use super::data_type::{DataType, NumberType, PairType, StringType};
 use super::links::unresolved;
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{CompactString, Documentation, EnumValue, Field, Scale, Shape, Type, TypeDef, TypeId};
 use crate::limits;
@@ -137,8 +137,7 @@ impl<'a> Types<'a> {
 
 fn too_many(target: &Given<'_>, diagnostics: &mut Diagnostics) {
     let message = "the value lists are used with more types than the limit allows";
-    let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, target.span, message);
-    diagnostics.push(diagnostic.label("the values have no names"));
+    diagnostics.push(codes::INPUT_TOO_LARGE.at(target.span, message).label("the values have no names"));
 }
 
 /// Returns the shortest integer type for the values of an enumeration to which nothing refers.

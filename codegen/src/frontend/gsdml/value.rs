@@ -1,7 +1,7 @@
 //! Reads the default values and allowed values of parameters.
 
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::xml::Given;
 use crate::ir::{Limits, Type, Value};
 use crate::text::brief;
@@ -30,7 +30,7 @@ impl<'a> Reader<'a, '_> {
                 _ => "a value of its data type",
             };
             let message = format!("the default value `{}` is not {what}", brief(text));
-            self.diagnostics.push(Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message).label("kept as text"));
+            self.diagnostics.push(codes::GSDML_DEFAULT.at(given.span, message).label("kept as text"));
         }
         Some(value.unwrap_or_else(|| Value::Raw(text.into())))
     }
@@ -39,11 +39,8 @@ impl<'a> Reader<'a, '_> {
         let (value, is_plain) = whole(&given.text)?;
         if !is_plain {
             let message = format!("`{}` does not consist of decimal digits", given.text);
-            self.diagnostics.push(
-                Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message)
-                    .label(format!("read as {value}"))
-                    .fix(value.to_string()),
-            );
+            let found = codes::GSDML_DEFAULT.at(given.span, message).label(format!("read as {value}"));
+            self.diagnostics.push(found.fix(value.to_string()));
         }
         self.check_range(given, value, ty);
         Some(Value::Int(value))
@@ -54,7 +51,7 @@ impl<'a> Reader<'a, '_> {
         let Some((low, high)) = ty.integer_range() else { return };
         if value < low || value > high {
             let message = format!("{value} is out of range for {ty} ({low} to {high})");
-            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept unchanged"));
+            self.diagnostics.push(codes::OUT_OF_TYPE.at(given.span, message).label("kept unchanged"));
         }
     }
 
@@ -63,7 +60,7 @@ impl<'a> Reader<'a, '_> {
         if length > bits as usize / 8 {
             let message =
                 format!("the default value has {length} characters, but the parameter holds only {}", bits / 8);
-            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept unchanged"));
+            self.diagnostics.push(codes::OUT_OF_TYPE.at(given.span, message).label("kept unchanged"));
         }
     }
 
@@ -102,7 +99,7 @@ impl<'a> Reader<'a, '_> {
 
     fn bad_part(&mut self, given: &Given<'_>, part: &str, why: &str, label: &str) {
         let message = format!("invalid allowed value `{}`: {why}", brief(part));
-        self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span_of(part), message).label(label));
+        self.diagnostics.push(codes::ALLOWED_VALUES.at(given.span_of(part), message).label(label));
     }
 }
 

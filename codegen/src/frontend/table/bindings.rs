@@ -12,7 +12,7 @@ use super::rows::{Named, Rows};
 use super::spaces::{self, Numbers};
 use super::tree::Reader;
 use super::{lints, notation, types};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Binding, Buses, Item, ObjectBuses, RegisterSpace, Type};
 use crate::limits;
 use crate::number::{hex16, written_object};
@@ -44,7 +44,7 @@ impl Rows {
                 self.references.push((At { value: item.clone(), start: given.start, end: given.end }, ITEM));
                 if row.max_count.is_none() {
                     let message = "`count` names an item, but the maximum number of items is missing";
-                    let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
+                    let found = codes::TABLE_VALUE.at(reader.span(given), message);
                     reader.diagnostics.push(found.help("write the maximum number of items as `max_count`"));
                 }
                 Some(row.max_count.unwrap_or(1))
@@ -97,7 +97,7 @@ impl Rows {
         }
         if row.count.is_some() && count > 1 && !key.value.contains("{n") {
             let message = format!("all {count} items of the row have the name `{}`", brief(&key.value));
-            let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+            let found = codes::TABLE_VALUE.at(reader.span(key), message);
             reader
                 .diagnostics
                 .push(found.help("write `{n}`, which counts from 0, or `{n+1}`, which counts from 1, in the name"));
@@ -258,9 +258,7 @@ impl Rows {
                 };
                 let registers = count_of(printed, "register");
                 let message = format!("the row has {registers} of {unit} bits, but {needed}");
-                reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
+                reader.diagnostics.push(codes::REGISTER_SPAN.at(reader.span(reg), message).label("the type is used"));
             }
         }
         // If the type has no fixed length, the value of a single item fills the range of register numbers.
@@ -325,11 +323,8 @@ impl Rows {
             if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
                 let ruled = written_object(ruled, ruled_sub);
                 let message = format!("the row has object {text}, but the rule in `[spaces]` gives {ruled}");
-                reader.diagnostics.push(
-                    Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
-                        .label("the object of the row is used")
-                        .help(lints::FORMULA),
-                );
+                let found = codes::REGISTER_FORMULA.at(reader.span(object), message);
+                reader.diagnostics.push(found.label("the object of the row is used").help(lints::FORMULA));
             }
             bindings.retain(|binding| !matches!(binding, Binding::Object { .. }));
         }
@@ -345,7 +340,7 @@ impl Rows {
             let bus = buses::read(reader, std::slice::from_ref(name));
             if !bus.is_empty() && bus.and(self.buses).is_empty() {
                 let message = format!("`buses` of the device does not contain {}", brief(&name.value));
-                let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
+                let wrong = codes::TABLE_VALUE.at(reader.span(name), message);
                 reader.diagnostics.push(wrong.help("add the bus to `buses` of `[device]`, or delete it from the row"));
             }
             found = found.or(bus);
@@ -359,7 +354,7 @@ impl Rows {
         let objects = self.buses_of(reader, row).with_objects();
         if Buses::from(objects).is_empty() {
             let message = "the row has an object, but is on neither CANopen nor EtherCAT";
-            let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(at), message);
+            let found = codes::TABLE_PLACE.at(reader.span(at), message);
             reader
                 .diagnostics
                 .push(found.help("add CANopen or EtherCAT to `buses` of the row, of the defaults or of the device"));

@@ -7,7 +7,7 @@ use super::format::{CodeTableRow, CodesTable};
 use super::tree::Reader;
 use super::{buses, notation, value};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Availability, CodeRow, CodeTable, CompactString, Device, Doubts, Type, Value};
 use crate::text::brief;
 
@@ -36,7 +36,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
                 brief(&other.value),
                 brief(&key.value)
             );
-            let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
+            let found = codes::CELLS_TWICE.at(reader.span(key), message);
             reader.diagnostics.push(found.note_at(reader.span(other), "the first of the two codes"));
         }
         let cell = |literal: &At<Literal>| {

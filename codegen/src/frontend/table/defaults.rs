@@ -3,7 +3,7 @@
 use super::document::{Node, Value};
 use super::format::Row;
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 
 /// Declares the keys of `defaults`, each with the field that it sets in a row.
 macro_rules! inherited {
@@ -43,53 +43,6 @@ inherited! {
     "pdi" pdi
 }
 
-/// Keys that rows do not inherit from `defaults`.
-const NOT_INHERITED: &[&str] = &[
-    "reg",
-    "obj",
-    "esc",
-    "ascii",
-    "param",
-    "name",
-    "code",
-    "bits",
-    "enum",
-    "min",
-    "max",
-    "default",
-    "fixed",
-    "allowed",
-    "step",
-    "conversions",
-    "variants",
-    "when",
-    "writable",
-    "clears",
-    "once",
-    "effects",
-    "replaced_by",
-    "same_as",
-    "upper",
-    "same_quantity",
-    "count",
-    "max_count",
-    "stride",
-    "part",
-    "reserved",
-    "optional",
-    "orig",
-    "doc",
-    "doc_from",
-    "cite",
-    "doubt",
-    "doubts",
-    "allow",
-    "summary",
-    "why",
-    "add",
-    "remove",
-];
-
 /// Reads the table `[defaults]`.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<Row> {
     let mut node = node;
@@ -109,13 +62,13 @@ pub(super) fn of_chapter(reader: &mut Reader<'_, '_>, chapter: &mut Node<'_>) {
 /// Reports and removes keys that rows do not inherit from `defaults`.
 fn check(reader: &mut Reader<'_, '_>, node: &mut Node<'_>) {
     let Value::Table(table) = &mut node.value else { return };
-    let is_excluded = |key: &str| NOT_INHERITED.contains(&key) && !INHERITED.contains(&key);
+    let is_excluded = |key: &str| Row::KEYS.contains(&key) && !INHERITED.contains(&key);
     let found: Vec<_> = table.iter().map(|(key, _)| key).filter(|key| is_excluded(&key.value)).cloned().collect();
     for key in found {
         table.remove(&key.value);
         let name = &key.value;
         let message = format!("rows do not inherit `{name}` from `defaults`");
-        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&key), message);
+        let found = codes::TABLE_VALUE.at(reader.span(&key), message);
         let help = format!("write `{name}` in each row; rows inherit only {}", INHERITED.join(", "));
         reader.diagnostics.push(found.help(help));
     }

@@ -13,7 +13,7 @@ use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{lints, notation, types, value};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::number::hex16;
 use crate::source::Origin;
@@ -397,8 +397,7 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     let number = number.filter(|&number| u32::from(number) < bytes);
     if number.is_none() {
         let message = format!("the byte at {} is outside of the {base} at {}", hex16(byte), hex16(first));
-        let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
-        reader.diagnostics.push(found.label("left out"));
+        reader.diagnostics.push(codes::BIT_OUTSIDE_TYPE.at(reader.span(key), message).label("left out"));
     }
     // The result fits `u8` because an integer has at most 64 bits.
     Some((number?.saturating_mul(8).saturating_add(offset), bits))
@@ -418,7 +417,7 @@ fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &s
     let is_empty = name.trim().is_empty();
     if is_empty {
         let message = format!("{what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
-        let found = Diagnostic::new(&codes::EMPTY_NAME, reader.span(key), message);
+        let found = codes::EMPTY_NAME.at(reader.span(key), message);
         let help =
             format!("write a name, mark the {what} as reserved, or delete the {what} if the manual does not have it");
         reader.diagnostics.push(found.label(format!("named `{what} {}`", brief(&key.value))).help(help));
@@ -437,7 +436,7 @@ fn zone_name(zone: Zone) -> &'static str {
 pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Option<&str>) {
     if let Some(name) = name.filter(|name| name.contains('{')) {
         let message = format!("the placeholder in the name `{}` has no value", brief(name));
-        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+        let found = codes::TABLE_VALUE.at(reader.span(key), message);
         reader.diagnostics.push(found.help("use `{n}` with several bits or a `count`, and `{sub}` with objects"));
     }
 }

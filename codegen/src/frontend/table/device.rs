@@ -6,7 +6,7 @@ use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrTex
 use super::notation;
 use super::tree::Reader;
 use super::{lints, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     AxisRange, AxisRule, AxisStep, Bus, Buses, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings,
     Identity, Manual, ManualSection, Type, Variant,
@@ -93,7 +93,7 @@ fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSecti
             Ok(start) => sections.push(ManualSection { start, title: title.value.as_str().into() }),
             Err(_) => {
                 let message = format!("`{}` is neither a page number nor a line number", brief(&key.value));
-                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+                let found = codes::TABLE_VALUE.at(reader.span(key), message);
                 reader
                     .diagnostics
                     .push(found.help("write the number of the first page or line: `2170 = \"Motion parameters\"`"));
@@ -160,7 +160,7 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
                 let message = format!("`{text}` is not a valid rule of `[axes]`");
                 let help = "write `objects` and one of `index`, `sub = \"axis\"` and `sub_stride`, such as \
                             `{ objects = \"0x6000..0x67FF\", index = 0x800 }`";
-                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message).help(help);
+                let found = codes::TABLE_VALUE.at(reader.span(rule), message).help(help);
                 let digits = rule.value.objects.as_ref().and_then(|given| lints::digits_of_index(reader, given));
                 reader.diagnostics.push(match digits {
                     Some(digits) => found.note(digits),

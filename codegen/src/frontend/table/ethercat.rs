@@ -3,7 +3,7 @@
 use super::at::{At, FlagOr};
 use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Bus, Buses, Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
 
 /// Words for the key `purpose`.
@@ -18,8 +18,7 @@ const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
 pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, buses: Buses, device: &mut Device) {
     let settings_table = &table.value;
     if !buses.contains(Bus::EtherCat) {
-        let found =
-            Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "`buses` of the device does not contain EtherCAT");
+        let found = codes::TABLE_VALUE.at(reader.span(table), "`buses` of the device does not contain EtherCAT");
         reader.diagnostics.push(found.help("add the bus to `buses` of `[device]`, or delete the table"));
         return;
     }

@@ -15,7 +15,7 @@ use super::{
     at, chapters, code_tables, composites, defaults, device, ethercat, format, frames, given, images, machines,
     numbered, process, references, spaces, summary, tree, windows,
 };
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Buses, Catalog, Device};
 use crate::source::{FileId, Source, Span};
 
@@ -66,7 +66,7 @@ pub fn read(
     let mut reader = Reader::new(source, file, diagnostics);
     let mut table = Table::new(&mut reader, chosen)?;
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
-        let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");
+        let found = codes::TABLE_VALUE.at(Span::new(file, 0, 0), "the table has no `[device]`");
         reader.diagnostics.push(match table.node("overlay") {
             Some(_) => found.help("pass the overlay with `--overlay`, next to the description that it changes"),
             None => found,

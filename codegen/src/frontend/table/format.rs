@@ -157,14 +157,18 @@ macro_rules! table {
             $($(#[$of_field])* $(#[cfg_attr(test, schemars(rename = $key))])? pub $field: $ty,)*
         }
 
+        impl $name {
+            /// Keys that the table can have.
+            pub(super) const KEYS: &'static [&'static str] = &[$(key!($field $($key)?)),*];
+        }
+
         impl Read for $name {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-                const KEYS: &[&str] = &[$(key!($field $($key)?)),*];
                 let mut table = Self::default();
                 for (key, value) in read::table(node, concat!("struct ", stringify!($name)))?.iter() {
                     match key.value.as_ref() {
                         $(key!($field $($key)?) => table.$field = Read::read(value)?,)*
-                        _ => return Err(Mistake::unknown_key(key, KEYS)),
+                        _ => return Err(Mistake::unknown_key(key, Self::KEYS)),
                     }
                 }
                 Ok(table)

@@ -5,7 +5,7 @@ use super::format::{GivenTable, MachineUnitTable};
 use super::references::References;
 use super::tree::Reader;
 use super::{units, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{GivenNumber, MachineUnit, Type};
 use crate::text::brief;
 
@@ -53,7 +53,7 @@ pub(super) fn unit(
 fn symbol(reader: &mut Reader<'_, '_>, unit: &At<String>) {
     if !units::is_unit(&unit.value) {
         let message = format!("`{}` is not a known unit", brief(&unit.value));
-        let found = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
+        let found = codes::UNKNOWN_UNIT.at(reader.span(unit), message);
         reader.diagnostics.push(match units::usual_unit(&unit.value) {
             Some(usual) => found.help(format!("did you mean `{usual}`?")),
             None => found.label("kept unchanged"),

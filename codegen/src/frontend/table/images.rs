@@ -8,7 +8,7 @@ use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{process, types};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
     PdoEntryKind, ProcessImage, Type, TypeDef,
@@ -232,7 +232,7 @@ impl Fields {
         let before = self.0.range(..(end(entry), 0, 0)).next_back();
         let Some((_, other)) = before.filter(|(range, _)| u64::from(entry.bit_offset) < range.1) else { return true };
         let message = format!("`{}` overlaps `{}`", brief(&key.value), brief(&other.name));
-        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+        let found = codes::TABLE_PLACE.at(reader.span(key), message);
         reader.diagnostics.push(found.note_at(other.origin.span, "the other field"));
         false
     }

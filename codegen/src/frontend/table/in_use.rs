@@ -7,7 +7,7 @@ use compact_str::{format_compact, CompactString};
 
 use super::tree::Reader;
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::number::{self, written_object};
@@ -135,8 +135,7 @@ impl InUse {
                 brief(&other.name),
                 numbered(space, &[numbers(*start, other.last)])
             );
-            let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
-            let found = found.note_at(other.span, "the other item");
+            let found = codes::SHARED_REGISTERS.at(item.at.name, message).note_at(other.span, "the other item");
             reader.diagnostics.push(found.help("correct the register number of one item, or use a shorter type"));
         }
         let availability = item.availability.clone();
@@ -157,8 +156,7 @@ impl InUse {
         if let Some(other) = parts.iter().find(shares) {
             let (name, other_name) = (brief(&item.name), brief(&other.name));
             let message = format!("`{name}` and `{other_name}` are parts of {address}, but overlap");
-            let found = Diagnostic::new(&codes::SHARED_REGISTERS, item.at.name, message);
-            let found = found.note_at(other.span, "the other item");
+            let found = codes::SHARED_REGISTERS.at(item.at.name, message).note_at(other.span, "the other item");
             reader.diagnostics.push(found.help("correct `part` or the register number of one item"));
         }
         let availability = item.availability.clone();
@@ -168,7 +166,7 @@ impl InUse {
 
 /// Reports the second use of a name or address.
 fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
-    let found = Diagnostic::new(&codes::TABLE_DUPLICATE, item.at.name, format!("{what} occurs twice"));
+    let found = codes::TABLE_DUPLICATE.at(item.at.name, format!("{what} occurs twice"));
     let found = found.note_at(first, "first use");
     reader.diagnostics.push(match help {
         Some(help) => found.help(help),

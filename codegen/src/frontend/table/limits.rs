@@ -5,7 +5,7 @@ use super::format::Row;
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{lints, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{excluded, Access, Item, Limits, Shape, Type, TypeId, Value};
 use crate::source::Span;
 
@@ -54,8 +54,7 @@ impl Rows {
 
 /// Reports a value that contradicts other facts of its row.
 fn exclude(reader: &mut Reader<'_, '_>, span: Span, message: String) {
-    let found = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message);
-    reader.diagnostics.push(found.help(
+    reader.diagnostics.push(codes::DEFAULT_OUT_OF_LIMITS.at(span, message).help(
         "keep the value that the manual's text supports, and add a `doubt`, because one of the values is misprinted",
     ));
 }

@@ -6,7 +6,7 @@ use super::format::{MachineTable, NumberOrText, PatternTable, Row};
 use super::notation;
 use super::spaces::Space;
 use super::tree::Reader;
-use crate::diagnostics::{codes, Code, Diagnostic};
+use crate::diagnostics::{codes, Code};
 use crate::ir::{Type, Value};
 use crate::number::{hex, hex16};
 use crate::source::Span;
@@ -31,8 +31,7 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
         };
         if let Some(problem) = problem {
             let message = format!("`0x{}` {problem}, but {ty} needs {needed}", brief(&digits));
-            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message);
-            reader.diagnostics.push(found.help(DIGITS));
+            reader.report_with_help(&codes::HEX_DIGITS, span, message, DIGITS);
         }
     }
     range(reader, value, ty, span);
@@ -43,7 +42,7 @@ fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     let text = reader.source.slice(span).trim_matches(['"', '\'']);
     if text.starts_with("0X") {
         let message = format!("`{}` has the prefix `0X` instead of `0x`", brief(text));
-        let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("read as a hexadecimal number");
+        let found = codes::HEX_DIGITS.at(span, message).label("read as a hexadecimal number");
         reader.diagnostics.push(found.help("write `0x`, unless the X replaces a lost digit"));
     }
 }
@@ -61,8 +60,7 @@ pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
     if let Some(digits) = longest {
         let message =
             format!("`0x{}` has {} hexadecimal digits, but {base} needs {needed}", brief(&digits), digits.len());
-        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
-        reader.diagnostics.push(found.help(DIGITS));
+        reader.report_with_help(&codes::HEX_DIGITS, reader.span(given), message, DIGITS);
     }
 }
 
@@ -74,7 +72,7 @@ pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: 
         Value::Real(number) => format!("{number} is outside of the range of {ty}"),
         _ => return,
     };
-    let found = Diagnostic::new(&codes::OUT_OF_TYPE, span, message).label("kept unchanged");
+    let found = codes::OUT_OF_TYPE.at(span, message).label("kept unchanged");
     reader.diagnostics.push(match (ty, value) {
         (Type::Unsigned(bits), Value::Int(..0)) => found.help(format!("check whether the type is `i{bits}`")),
         (Type::Integer(bits @ 1..=64), Value::Int(number)) if (0..1i128 << bits).contains(number) => {
@@ -99,11 +97,11 @@ pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     let first = text.split([':', '.']).next().unwrap_or_default();
     if let Some(number) = first.parse::<u16>().ok().filter(|number| *number > 0) {
         let message = format!("the index `{first}` has no prefix `0x` and is read as {}", hex16(number));
-        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
+        let found = codes::HEX_DIGITS.at(reader.span(given), message);
         reader.diagnostics.push(found.help(format!("write {}, or 0x{first} if the manual omits `0x`", hex16(number))));
     }
     if let Some(message) = digits_of_index(reader, given) {
-        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
+        let found = codes::HEX_DIGITS.at(reader.span(given), message);
         reader.diagnostics.push(found.help("compare the neighboring rows: a digit was doubled or lost"));
     }
 }
@@ -176,8 +174,7 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
         if row.offset() != expected && !by_rule && is_member {
             let (index, expected) = (hex16(row.index), hex16(row.number.wrapping_add(expected)));
             let message = format!("the row has object {index}, but the neighboring rows suggest {expected}");
-            let found = Diagnostic::new(&codes::REGISTER_FORMULA, row.span, message);
-            reader.diagnostics.push(found.help(FORMULA));
+            reader.report_with_help(&codes::REGISTER_FORMULA, row.span, message, FORMULA);
         }
     }
 }
@@ -200,7 +197,7 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
             "the row has no object, but the rule in `[spaces]` gives {}, and other rows of the chapter have objects",
             hex16(index)
         );
-        let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
+        let found = codes::REGISTER_FORMULA.at(reader.span(reg), message);
         reader.diagnostics.push(found.help("use a space without this rule if the register is not an object"));
     }
 }
@@ -229,7 +226,7 @@ fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &st
             if (value ^ other) & mask & other_mask == 0 && other & !other_mask == 0 {
                 let (both, first, second) = (hex(value | other), brief(&other_key.value), brief(&key.value));
                 let message = format!("the value {both} matches both {what} `{first}` and `{second}`");
-                let found = Diagnostic::new(code, reader.span(key), message);
+                let found = code.at(reader.span(key), message);
                 reader
                     .diagnostics
                     .push(found.note_at(reader.span(other_key), format!("the other {}", what.trim_end_matches('s'))));

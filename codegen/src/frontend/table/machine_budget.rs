@@ -9,7 +9,7 @@ use super::repeats::length;
 use super::states::enumeration;
 use super::tree::Reader;
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::Device;
 use crate::limits::{MAX_MACHINE_ROWS, ROW_BYTES_PER_ITEM};
 use crate::text::brief;
@@ -39,7 +39,7 @@ impl MachineBudget {
              including copies of long texts",
             brief(&name.value)
         );
-        let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(name), message);
+        let found = codes::INPUT_TOO_LARGE.at(reader.span(name), message);
         reader.diagnostics.push(found.label("this and all later state machines are left out"));
         false
     }

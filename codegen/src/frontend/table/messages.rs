@@ -9,7 +9,7 @@ use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{conditions, framing, notation, types, value, Table};
 use crate::collections::HashSet;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
     MessageField, MessageValue, ParameterSpace, Type, Value,
@@ -136,7 +136,7 @@ fn message(
 /// Reports the first message that exceeds the maximum number of messages.
 fn too_many(reader: &mut Reader<'_, '_>, table: &At<MessageTable>) {
     let message = format!("the table has more than {} messages", limits::MAX_MESSAGES);
-    let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, reader.span(table), message);
+    let found = codes::INPUT_TOO_LARGE.at(reader.span(table), message);
     reader.diagnostics.push(found.label("this and all later messages are left out"));
 }
 
@@ -467,7 +467,7 @@ fn byte_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Vec<u8> {
         return bytes;
     }
     let message = format!("`{}` is not a valid byte order", brief(&order.value));
-    let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(order), message);
+    let found = codes::TABLE_VALUE.at(reader.span(order), message);
     reader.diagnostics.push(found.help("write consecutive letters from `A`, each exactly once, such as `CDAB`"));
     Vec::new()
 }

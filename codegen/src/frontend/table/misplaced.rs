@@ -3,7 +3,7 @@
 use super::at::At;
 use super::format::{NumberOrText, Row};
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 
 /// Keys, each with a flag that is true if the key has no effect in the row, and with the help text for this case.
 type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
@@ -93,8 +93,7 @@ pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Ro
 
 fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
     for (name, _, why) in list.iter().filter(|(_, is_there, _)| *is_there) {
-        let found =
-            Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), format!("`{name}` has no effect in this row"));
+        let found = codes::TABLE_VALUE.at(reader.span(key), format!("`{name}` has no effect in this row"));
         reader.diagnostics.push(found.help(*why));
     }
 }

@@ -6,7 +6,7 @@ use compact_str::CompactString;
 
 use super::notation;
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{texts, Device};
 use crate::source::Span;
 use crate::text::brief;
@@ -43,7 +43,7 @@ pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str,
             (message, "write the name of the correct item, and a `doubt`".to_owned())
         }
     };
-    reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_NAME, span, message).help(help));
+    reader.diagnostics.push(codes::UNRESOLVED_NAME.at(span, message).help(help));
     true
 }
 

@@ -9,7 +9,7 @@ use super::notation::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::words::OBJECT_CODES;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::number::hex16;
 use crate::text::brief;
@@ -29,7 +29,7 @@ pub(super) fn add(
 ) {
     let Some(objects) = notation::objects(&key.value) else {
         let message = format!("`{}` is not an object address", brief(&key.value));
-        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message).help(notation::OBJECT_HELP);
+        let found = codes::TABLE_PLACE.at(reader.span(key), message).help(notation::OBJECT_HELP);
         reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
             Some(digits) => found.note(digits),
             None => found,
@@ -105,7 +105,7 @@ fn head(
         if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
             let key_text = brief(&key.value);
             let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies only to a single value");
-            let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+            let found = crate::diagnostics::codes::TABLE_PLACE.at(reader.span(key), message);
             reader
                 .diagnostics
                 .push(found.help(format!("write `{of_value}` in the row of a sub-entry, such as `\"{key_text}:1\"`")));
@@ -118,9 +118,8 @@ fn head(
         group.items = vec![item];
     }
     if let Some(first) = dictionary.get(&index) {
-        let diagnostic =
-            Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object {} occurs twice", hex16(index)));
-        reader.diagnostics.push(diagnostic.note_at(first.origin.span, "first use"));
+        let found = codes::TABLE_DUPLICATE.at(reader.span(key), format!("object {} occurs twice", hex16(index)));
+        reader.diagnostics.push(found.note_at(first.origin.span, "first use"));
         return;
     }
     dictionary.insert(index, group);
@@ -167,7 +166,7 @@ fn subs(
             Ok(at) => {
                 let first = group.items.get(at).map(|item| item.at.name).unwrap_or_default();
                 let message = format!("sub-index {sub_index} of object {} occurs twice", hex16(index));
-                let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
+                let diagnostic = codes::TABLE_DUPLICATE.at(reader.span(key), message);
                 reader.diagnostics.push(diagnostic.note_at(first, "first use"));
             }
             Err(at) => group.items.insert(at, item),
@@ -215,7 +214,7 @@ fn further_addresses(
     let has_number = row.reg.is_some() || row.esc.is_some() || row.param.is_some();
     if has_number && !is_single {
         let message = "`reg`, `esc` and `param` apply to one item, but the row describes several objects";
-        let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(named.key), message);
+        let found = crate::diagnostics::codes::TABLE_PLACE.at(reader.span(named.key), message);
         reader.diagnostics.push(found.help("write one row per object"));
         return;
     }

@@ -5,7 +5,7 @@ use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
 use super::tree::{cited, Reader};
 use crate::collections::HashSet;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     Availability, CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef,
 };
@@ -171,7 +171,7 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
         if !known.insert(outcome.clone()) {
             let message = format!("the cell contains `{}` twice", brief(one));
             let help = "compare the cell with the manual, and correct one of the two effects";
-            reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));
+            reader.diagnostics.push(codes::TABLE_DUPLICATE.at(span, message).help(help));
             continue;
         }
         found.push(outcome);

@@ -6,7 +6,7 @@ use super::format::{NumberOrText, PdoTable};
 use super::notation;
 use super::tree::Reader;
 use super::types;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Device, Direction, Entries, Item, ItemNames, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::number::hex16;
 use crate::text::brief;
@@ -50,11 +50,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     pdo.name = given.name.as_deref().unwrap_or_default().into();
     (pdo.fixed, pdo.mandatory) = (given.fixed, given.mandatory);
     if let Some(sm) = given.sm.as_ref().filter(|_| !given.default) {
-        let found = Diagnostic::new(
-            &codes::TABLE_VALUE,
-            reader.span(sm),
-            "`sm` applies only to a PDO that is assigned by default",
-        );
+        let found = codes::TABLE_VALUE.at(reader.span(sm), "`sm` applies only to a PDO that is assigned by default");
         reader.diagnostics.push(found.help("add `default = true`, or delete `sm`"));
     }
     pdo.sync_manager = given.sm.as_ref().map(|sm| sm.value).filter(|_| given.default);
@@ -142,7 +138,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
     let Some((index, sub_index)) = by_address().or_else(|| by_name().and_then(Item::object)) else {
         if by_name().is_some() {
             let message = format!("`{}` has no object address, but PDOs map only objects", brief(what));
-            let found = crate::diagnostics::Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(text), message);
+            let found = crate::diagnostics::codes::UNRESOLVED_NAME.at(reader.span(text), message);
             reader.diagnostics.push(found.help("add `obj` to the row, or a rule for CANopen or EtherCAT to its space"));
             return None;
         }

@@ -7,7 +7,7 @@ use super::notation;
 use super::numbered::{self, Numbered};
 use super::tree::Reader;
 use crate::collections::{HashMap, HashSet};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Device, Entries, GroupKind, ItemNames, Shape};
 use crate::text::brief;
 use crate::text::glob;
@@ -52,7 +52,7 @@ fn ambiguous(reader: &mut Reader<'_, '_>, known: &Known<'_>, name: &At<String>) 
     let Some([first, second, ..]) = known.chapters.get(name.value.as_str()).map(Vec::as_slice) else { return };
     let text = brief(&name.value);
     let message = format!("several chapters have an item `{text}`, such as `{}` and `{}`", brief(first), brief(second));
-    let found = Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(name), message);
+    let found = codes::UNRESOLVED_NAME.at(reader.span(name), message);
     reader.diagnostics.push(found.help(format!("write `\"{}/{text}\"`", brief(first))));
 }
 

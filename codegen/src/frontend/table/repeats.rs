@@ -6,7 +6,7 @@ use super::at::{Literal, OneOrMany};
 use super::by_name::ByName;
 use super::format::{ConditionValues, Row, UnitTable};
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::Value;
 use crate::limits::{MAX_DERIVED_ITEMS, MAX_FREE_ROW_BYTES, MAX_LISTED_VALUES, ROW_BYTES_PER_ITEM};
 use crate::source::Span;
@@ -65,7 +65,7 @@ impl Repeats {
                 "`count`, ranges of objects, ranges of values, and long texts expand the table to more than \
                  {MAX_DERIVED_ITEMS} items"
             );
-            let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
+            let found = codes::INPUT_TOO_LARGE.at(span, message);
             let label = "this row and all later rows describe one item each and copy no long texts";
             reader.diagnostics.push(found.label(label));
         }

@@ -13,7 +13,7 @@ use super::summary::{self, Summaries};
 use super::tree::{cited, Reader};
 use super::words::{ACCESSES, DIRECTIONS};
 use super::{conditions, given, scale, types, value};
-use crate::diagnostics::{codes, Code, Diagnostic};
+use crate::diagnostics::{codes, Code};
 use crate::ir::{
     Access, Availability, Behavior, Binding, Bus, Buses, Conversion, Documentation, Fact, FactOrigin, Item, ItemRef,
     ModbusTable, Quantity, RegisterSpace, RelatedItems, Rule, Shape, Storage, Type, TypeDef, TypeId,
@@ -106,10 +106,8 @@ impl Rows {
     /// Reports an item whose access rights are not declared.
     pub fn no_access(&self, reader: &mut Reader<'_, '_>, named: Named<'_>) {
         let message = format!("the access rights of `{}` are not declared", brief(named.name));
-        let diagnostic = Diagnostic::new(&codes::ACCESS_NOT_GIVEN, reader.span(named.key), message);
-        reader
-            .diagnostics
-            .push(diagnostic.label("read-only").help("add `access` to the row, or to `defaults` for all rows"));
+        let found = codes::ACCESS_NOT_GIVEN.at(reader.span(named.key), message).label("read-only");
+        reader.diagnostics.push(found.help("add `access` to the row, or to `defaults` for all rows"));
     }
 
     /// Returns the type of a row. Reports a missing or unknown type.
@@ -119,7 +117,7 @@ impl Rows {
             if found.is_none() {
                 let what = format!("`{}` is not a known data type", brief(&ty.value));
                 let similar = types::suggestion(&ty.value);
-                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(ty), what);
+                let diagnostic = codes::TABLE_VALUE.at(reader.span(ty), what);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
                     None => diagnostic.help("write a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`"),
@@ -231,7 +229,7 @@ impl Rows {
         };
         let (name, bytes) = (brief(named.name), bits.div_ceil(8));
         let message = format!("the manual states {} bytes for `{name}`, but its type has {bytes}", length.value);
-        let found = Diagnostic::new(&codes::LENGTH_MISMATCH, reader.span(length), message).label("the type is used");
+        let found = codes::LENGTH_MISMATCH.at(reader.span(length), message).label("the type is used");
         reader.diagnostics.push(found.help("correct the type, or delete `length` and add a `doubt`"));
     }
 
@@ -291,7 +289,7 @@ impl Rows {
                 let similar =
                     crate::text::similar(&unit.value, names).or_else(|| super::units::usual_unit(&unit.value));
                 let message = format!("`{}` is neither defined in `[units]` nor a known unit", brief(&unit.value));
-                let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
+                let diagnostic = codes::UNKNOWN_UNIT.at(reader.span(unit), message);
                 reader.diagnostics.push(match similar {
                     Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
                     None => diagnostic.label("kept unchanged").help("define it in `[units]`"),

@@ -4,7 +4,7 @@ use super::at::At;
 use super::format::{ScaleRule, Scaling};
 use super::references::{References, ITEM};
 use super::tree::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{ItemRef, Scale};
 use crate::source::Span;
 
@@ -58,7 +58,7 @@ fn explicit(
     match found {
         Ok(scale) => Some(scale),
         Err(message) => {
-            let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
+            let found = codes::TABLE_VALUE.at(reader.span(given), message);
             reader.diagnostics.push(found.help("see dictionaries/README.md for all forms of a scale"));
             None
         }

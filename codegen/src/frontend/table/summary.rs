@@ -8,7 +8,7 @@ use super::format::SummaryTable;
 use super::tree::{cited, Reader};
 use super::words::{ACCESSES, DIRECTIONS, OBJECT_CODES};
 use super::{types, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Access, Group, Item, Mappable, ObjectCode, Texts, Type};
 use crate::source::Span;
 use crate::text::{brief, count_of};
@@ -61,7 +61,7 @@ pub(super) fn objects(
 }
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
-    let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the fact in the row is used");
+    let found = codes::SUMMARY_DIFFERS.at(span, message).label("the fact in the row is used");
     let found = found
         .help("write the correct fact in the row, record the other fact in a `doubt`, and allow this code on the row");
     reader.diagnostics.push(match &summary.cite {

@@ -12,7 +12,7 @@ use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, Option
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
@@ -61,7 +61,7 @@ impl<'a> Reader<'a, '_> {
             let follows = std::mem::replace(&mut last_line, line) == line || error.unexpected().is_none();
             if position == 0 || !follows {
                 let (span, message) = (Span::new(self.file, start, end), message(error));
-                let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message.clone());
+                let diagnostic = codes::TABLE_SYNTAX.at(self.visible(span), message.clone());
                 self.diagnostics.push(match hint(&message) {
                     Some(hint) => diagnostic.help(hint),
                     None => diagnostic,
@@ -92,7 +92,7 @@ impl<'a> Reader<'a, '_> {
                     }
                 }
                 MistakeKind::Value(message) => {
-                    let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+                    let diagnostic = codes::TABLE_VALUE.at(span, message);
                     self.diagnostics
                         .push(diagnostic.help("see `lexibus schema` or dictionaries/README.md for the valid values"));
                     return None;
@@ -101,8 +101,7 @@ impl<'a> Reader<'a, '_> {
         }
         let whole = self.span(&node);
         let message = format!("the table has more than {MAX_UNKNOWN_KEYS} unknown keys");
-        let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, whole, message);
-        self.diagnostics.push(diagnostic.label("the whole table is left out"));
+        self.diagnostics.push(codes::TABLE_VALUE.at(whole, message).label("the whole table is left out"));
         None
     }
 
@@ -116,7 +115,7 @@ impl<'a> Reader<'a, '_> {
     pub fn entries(&mut self, node: Node<'a>, what: &str) -> Vec<(At<String>, Node<'a>)> {
         let Value::Table(table) = node.value else {
             let message = format!("`{what}` must be a table");
-            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.span(&node), message));
+            self.diagnostics.push(codes::TABLE_VALUE.at(self.span(&node), message));
             return Vec::new();
         };
         entries(table).collect()
@@ -138,7 +137,7 @@ impl<'a> Reader<'a, '_> {
     /// Reports a key that the format does not define for the table.
     pub fn unknown_key(&mut self, key: &str, known: &[&str], span: Span) {
         let message = format!("unknown key `{}`", brief(key));
-        let diagnostic = Diagnostic::new(&codes::UNKNOWN_TABLE_KEY, span, message);
+        let diagnostic = codes::UNKNOWN_TABLE_KEY.at(span, message);
         let is_number = key.starts_with(|letter: char| letter.is_ascii_digit() || letter == '-');
         let inner = ["at", "values"].into_iter().find(|inner| is_number && known.contains(inner));
         self.diagnostics.push(match similar(key, known.iter().copied()) {
@@ -153,7 +152,7 @@ impl<'a> Reader<'a, '_> {
     /// Reports a name that has no definition.
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
         let message = format!("no {what} has the name `{}`", brief(name));
-        let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
+        let diagnostic = codes::UNRESOLVED_NAME.at(span, message);
         let known = known.take_while(|_| self.helps());
         let known: Vec<&str> = known.filter(|known| !known.trim().is_empty()).collect();
         self.diagnostics.push(match similar(name, known.iter().copied()) {
@@ -167,7 +166,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     pub fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>) {
-        self.diagnostics.push(Diagnostic::new(code, span, message));
+        self.diagnostics.push(code.at(span, message));
     }
 
     /// Reports an error with a help text.
@@ -178,7 +177,7 @@ impl<'a> Reader<'a, '_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
-        self.diagnostics.push(Diagnostic::new(code, span, message).help(help));
+        self.diagnostics.push(code.at(span, message).help(help));
     }
 
     /// Returns the value for a word in `words`. Reports any other word.
@@ -188,7 +187,7 @@ impl<'a> Reader<'a, '_> {
             let known: Vec<&str> = words.iter().map(|&(word, _)| word).collect();
             let message = format!("`{}` is not a valid {what}", brief(&given.value));
             let help = format!("write one of {}", known.join(", "));
-            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.span(given), message).help(help));
+            self.diagnostics.push(codes::TABLE_VALUE.at(self.span(given), message).help(help));
         }
         found
     }

@@ -5,7 +5,7 @@ use thin_vec::ThinVec;
 use super::at::{At, Literal};
 use super::notation;
 use super::tree::{text_of, Reader};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Type, Value};
 use crate::limits::MAX_LISTED_VALUES;
 use crate::source::Span;
@@ -22,11 +22,7 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
         None => {
             let text = text_of(&given.value);
             let span = reader.span(given);
-            let diagnostic = Diagnostic::new(
-                &codes::TABLE_VALUE,
-                span,
-                format!("`{}` is not a value of the type {ty}", brief(&text)),
-            );
+            let diagnostic = codes::TABLE_VALUE.at(span, format!("`{}` is not a value of the type {ty}", brief(&text)));
             let is_real = matches!(given.value, Literal::Real(_));
             reader.diagnostics.push(match is_real {
                 true => diagnostic.help("write raw values: limits and defaults apply before `scale`"),
@@ -52,7 +48,7 @@ pub(super) fn ranges(
             None => {
                 let what = if matches!(ty, Type::Opaque(_)) { "number".to_owned() } else { format!("value of {ty}") };
                 let message = format!("`{}` is neither a {what} nor a range of them", brief(&text_of(&literal.value)));
-                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&literal), message);
+                let diagnostic = codes::TABLE_VALUE.at(reader.span(&literal), message);
                 reader.diagnostics.push(diagnostic.help("write `3`, or `\"3..7\"` for a range"));
             }
         }

@@ -8,7 +8,7 @@ use super::rows::Rows;
 use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{buses, scale, types, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Binding, Bus, Item, ItemVariant, Limits, RegisterSpace, Type, Value};
 
 impl Rows {
@@ -72,7 +72,7 @@ impl Rows {
             }
             () => return found,
         };
-        reader.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, found.at, message));
+        reader.diagnostics.push(codes::TABLE_VALUE.at(found.at, message));
         found
     }
 

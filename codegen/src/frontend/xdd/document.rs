@@ -72,7 +72,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
 
 fn not_canopen(root: &Tag<'_>) -> Box<Diagnostic> {
     let message = "this XML document does not describe a CANopen device";
-    Box::new(Diagnostic::new(&codes::NOT_A_CANOPEN_XDD, root.name_span(), message).help(
+    Box::new(codes::NOT_A_CANOPEN_XDD.at(root.name_span(), message).help(
         "check that the root element is ISO15745ProfileContainer, with profile bodies of the types \
          ProfileBody_Device_CANopen and ProfileBody_CommunicationNetwork_CANopen",
     ))
@@ -132,7 +132,8 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
 
 fn powerlink(span: Span) -> Box<Diagnostic> {
     Box::new(
-        Diagnostic::new(&codes::POWERLINK_XDD, span, "this is an XDD for Ethernet POWERLINK, not for CANopen")
+        codes::POWERLINK_XDD
+            .at(span, "this is an XDD for Ethernet POWERLINK, not for CANopen")
             .label("this profile is defined by EPSG 311")
             .help(
                 "ask the vendor for the CANopen XDD; the two formats share the extension .xdd and the outer elements",

@@ -6,7 +6,7 @@ use super::number::integer;
 use super::objects::{Builder, Key, Raw};
 use super::reader::Texts;
 use super::types::underlying;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
@@ -97,15 +97,10 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         if matches!(code, ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null) {
             return Some(Type::Opaque(None));
         }
-        self.reader.diagnostics.push(
-            Diagnostic::new(
-                &codes::MISSING_DATA_TYPE,
-                item.at.ty,
-                "neither the object nor its parameter has a data type",
-            )
-            .label("kept as read-only raw bytes")
-            .help("add a data type, such as `dataType=\"0007\"` for UNSIGNED32"),
-        );
+        let found = codes::MISSING_DATA_TYPE
+            .at(item.at.ty, "neither the object nor its parameter has a data type")
+            .label("kept as read-only raw bytes");
+        self.reader.diagnostics.push(found.help("add a data type, such as `dataType=\"0007\"` for UNSIGNED32"));
         None
     }
 

@@ -1,7 +1,7 @@
 //! Reads the numbers in CiA 311 files.
 
 use super::reader::Reader;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
 use crate::frontend::xml::Given;
 use crate::number::hex16;
@@ -33,11 +33,8 @@ impl Reader<'_, '_> {
             None => self.bad(given, what, "left out; expected hexadecimal digits"),
             Some(value) if digits.len() != text.len() => {
                 let message = format!("{text} has a prefix, but CiA 311 requires hexadecimal digits without a prefix");
-                self.diagnostics.push(
-                    Diagnostic::new(&codes::XDD_VALUE, given.span, message)
-                        .label(format!("read as {}", hex16(value)))
-                        .fix(digits),
-                );
+                let found = codes::XDD_VALUE.at(given.span, message).label(format!("read as {}", hex16(value)));
+                self.diagnostics.push(found.fix(digits));
             }
             Some(_) => {}
         }

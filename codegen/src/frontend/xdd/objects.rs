@@ -8,7 +8,7 @@ use super::number::integer;
 use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
 use super::types::underlying;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, define_type, ObjectType, Terms};
 use crate::frontend::xml::{Given, Read};
@@ -368,10 +368,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     fn duplicate(&mut self, later: Span, earlier: Span, what: &str) {
-        self.reader.diagnostics.push(
-            Diagnostic::new(&codes::DUPLICATE_OBJECT, later, format!("{what} occurs twice"))
-                .label("this element is used")
-                .note_at(earlier, "this element is ignored"),
-        );
+        let found = codes::DUPLICATE_OBJECT.at(later, format!("{what} occurs twice")).label("this element is used");
+        self.reader.diagnostics.push(found.note_at(earlier, "this element is ignored"));
     }
 }

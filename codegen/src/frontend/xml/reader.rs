@@ -199,8 +199,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
         let at = names.iter().position(|name| name.eq_ignore_ascii_case(attribute.name))?;
         if let (Some(code), Some(name)) = (F::CASE, names.get(at)) {
             let message = format!("the attribute {} has the wrong case: the schema defines {name}", attribute.name);
-            let diagnostic = Diagnostic::new(code, attribute.name_span, message);
-            self.diagnostics.push(diagnostic.label(format!("read as {name}")).fix(*name));
+            self.diagnostics.push(code.at(attribute.name_span, message).label(format!("read as {name}")).fix(*name));
         }
         Some(at)
     }
@@ -259,7 +258,7 @@ impl<'a, 'd, F: Format> Reader<'a, 'd, F> {
 
     /// Reports a diagnostic with a message and a label at `span`.
     pub fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>, label: impl Into<String>) {
-        self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
+        self.diagnostics.push(code.at(span, message).label(label));
     }
 
     /// Stores a text as an extension with the key `key`.

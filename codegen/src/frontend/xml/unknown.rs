@@ -5,7 +5,7 @@
 use compact_str::{format_compact, CompactString};
 
 use super::reader::{Attributes, Format, Read, Reader};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::Extension;
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Event, Tag};
@@ -53,12 +53,8 @@ impl<'a, F: Format> Reader<'a, '_, F> {
         let is_near = |other: &&&str| other.len().abs_diff(name.len()) <= limit && edit_distance(name, other) <= limit;
         let Some(similar) = names.iter().find(is_near) else { return false };
         let message = format!("{} defines `{similar}` here, not `{}`", F::STANDARD, brief(name));
-        let found = Diagnostic::new(&codes::MISSPELLED_NAME, span, message);
-        self.diagnostics.push(
-            found
-                .label("kept as an extension")
-                .help("correct the name if it is misspelled, because its value is not used"),
-        );
+        let found = codes::MISSPELLED_NAME.at(span, message).label("kept as an extension");
+        self.diagnostics.push(found.help("correct the name if it is misspelled, because its value is not used"));
         true
     }
 

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use memchr::{memchr, memchr2};
 
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::source::Span;
 
 /// The rule by which white space is normalized, including line ends.
@@ -94,5 +94,5 @@ fn unknown_reference(reference: &str, span: Span, offset: usize, diagnostics: &m
             "write the character itself, or `&amp;` if the text contains `&`",
         ),
     };
-    diagnostics.push(Diagnostic::new(&codes::ENTITY_REFERENCE, span, message).label("kept as text").help(help));
+    diagnostics.push(codes::ENTITY_REFERENCE.at(span, message).label("kept as text").help(help));
 }

@@ -13,7 +13,7 @@ pub struct Error(Box<Diagnostic>);
 
 impl Error {
     pub(super) fn new(code: &'static Code, span: Span, message: impl Into<String>) -> Self {
-        Error(Box::new(Diagnostic::new(code, span, message)))
+        Error(Box::new(code.at(span, message)))
     }
 
     pub(super) fn note_at(self, span: Span, message: &str) -> Self {

@@ -13,7 +13,7 @@ use super::super::{code_tables, device, machines};
 use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::collections::{HashMap, HashMapExt, HashSet};
-use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::Overlay as ReadOverlay;
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
@@ -73,7 +73,7 @@ impl<'o> Applied<'o> {
         }
         let what = if applies.module.is_some() { "module" } else { "device" };
         let message = format!("the overlay matches no {what} of the description");
-        let mut found = Diagnostic::new(&codes::OVERLAY_NOT_FOR, reader.span(&self.patcher.overlay.head), message);
+        let mut found = codes::OVERLAY_NOT_FOR.at(reader.span(&self.patcher.overlay.head), message);
         if let Some(device) = catalog.devices.first() {
             found = found.note(format!("the description contains {}", described(device)));
         }
@@ -147,7 +147,7 @@ impl<'o> Applied<'o> {
         let Some(other) = other else { return };
         let (name, other) = (brief(name), brief(other));
         let message = format!("`{name}` is also a part of `{other}`, which `for` of the overlay does not select");
-        let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.patcher.overlay.head), message);
+        let found = codes::OVERLAY_SHARED.at(reader.span(&self.patcher.overlay.head), message);
         reader.diagnostics.push(found.label("also changed in the other device"));
     }
 
@@ -210,7 +210,7 @@ impl<'o> Applied<'o> {
         let all: Vec<_> = axes.chain(codes).chain(machines).chain(procedures).collect();
         for (key, span) in all {
             let message = format!("a module cannot have `{key}`, because they belong to its device");
-            let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+            let found = codes::TABLE_VALUE.at(span, message);
             reader.diagnostics.push(found.help("move the table to an overlay whose `for` has no `module`"));
         }
     }
@@ -310,7 +310,7 @@ impl<'o> Applied<'o> {
                 RowEffect::NoChange => {
                     let message =
                         format!("the description already contains everything in the row `{}`", brief(&row.key.value));
-                    let found = Diagnostic::new(&codes::OVERLAY_NO_CHANGE, reader.span(&row.key), message);
+                    let found = codes::OVERLAY_NO_CHANGE.at(reader.span(&row.key), message);
                     reader.diagnostics.push(found.label("the row changes nothing"));
                 }
                 RowEffect::Changed => {}
@@ -336,7 +336,7 @@ impl<'o> Applied<'o> {
 
     fn no_match(&self, reader: &mut Reader<'_, '_>, row: &PatchRow) {
         let key = brief(&row.key.value);
-        let found = |message| Diagnostic::new(&codes::OVERLAY_NO_MATCH, reader.span(&row.key), message);
+        let found = |message| codes::OVERLAY_NO_MATCH.at(reader.span(&row.key), message);
         let found = match row.target {
             Target::Objects(_) => {
                 let found = found(format!("the description has no object `{key}`"));

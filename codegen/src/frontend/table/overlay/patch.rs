@@ -10,7 +10,7 @@ use super::super::repeats::Repeats;
 use super::super::rows::Rows;
 use super::super::tree::Reader;
 use super::super::Table;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Buses, CompactString};
 use crate::source::Span;
 use crate::text::brief;
@@ -142,7 +142,7 @@ impl Overlay {
         let mut table = Table::new(reader, &[])?;
         let Some(head) = table.take::<OverlayTable>(reader, "overlay") else {
             let message = "the table has no `[overlay]`";
-            let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+            let found = codes::TABLE_VALUE.at(Span::new(reader.file, 0, 0), message);
             reader.diagnostics.push(found.help("pass a table with `[device]` as an input, not as an overlay"));
             return None;
         };
@@ -150,7 +150,7 @@ impl Overlay {
         if head.value.why.is_none() {
             for row in patch.rows.iter().filter(|row| row.row.value.why.is_none()) {
                 let message = format!("the change of `{}` has no reason", brief(&row.key.value));
-                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&row.key), message);
+                let found = codes::TABLE_VALUE.at(reader.span(&row.key), message);
                 reader.diagnostics.push(found.help("add `why` to the row, or to `[overlay]` for all rows"));
             }
         }
