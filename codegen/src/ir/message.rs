@@ -293,7 +293,7 @@ pub struct CodeTable {
 }
 
 /// A row of a code table.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CodeRow {
     /// The code or range as printed (`0x8700`, `F125`, `0xFF13 to 0xFF15`); empty if the source prints decimal numbers.

@@ -35,16 +35,11 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Ve
             messages.rows.to_mut().extend(row);
         } else if let Some(list) = lists.iter_mut().find(|list| list.name == tag.name) {
             list.rows.to_mut().extend(enum_value(reader, &tag)?.map(|value| CodeRow {
-                printed: CompactString::default(),
-                printed_cells: Vec::new(),
                 code: value.value,
-                last: None,
                 name: value.name,
                 names: value.names,
-                availability: None,
                 documentation: value.documentation,
-                cells: Vec::new(),
-                stated_by: None,
+                ..CodeRow::default()
             }));
         } else {
             reader.unknown(&tag)?;
@@ -87,19 +82,7 @@ fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<Cod
     let documentation = documentation(reader, &descriptions, parent.span);
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
-    let (last, availability, printed_cells) = (None, None, Vec::new());
-    Ok(Some(CodeRow {
-        printed,
-        printed_cells,
-        code,
-        last,
-        name,
-        names,
-        availability,
-        documentation,
-        cells,
-        stated_by: None,
-    }))
+    Ok(Some(CodeRow { printed, code, name, names, documentation, cells, ..CodeRow::default() }))
 }
 
 /// Returns a hexadecimal code such as `#x8000` in the notation that all outputs use (`0x8000`). Returns an empty string

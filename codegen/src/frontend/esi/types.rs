@@ -13,6 +13,7 @@ use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
 use crate::frontend::xml::Given;
+use crate::ir::owner::Owner;
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, EnumValue, Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::Span;
@@ -443,21 +444,12 @@ impl<'a> Types<'a> {
 
     /// Returns the length of a type in bits, or `None` if it is unknown.
     pub fn bits(&self, ty: Type) -> Option<u32> {
-        match ty {
-            Type::Named(TypeId(at)) => self.defs.get(at as usize)?.bits,
-            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
-            Type::UnicodeString(length) => length?.checked_mul(16),
-            basic => basic.bits(),
-        }
+        Owner::of_types(&self.defs).fixed_bits(ty)
     }
 
     /// Returns the integer type of an enumeration or bit field. Returns any other type unchanged.
     pub fn underlying(&self, ty: Type) -> Type {
-        let Type::Named(TypeId(at)) = ty else { return ty };
-        match self.defs.get(at as usize).map(|def| &def.shape) {
-            Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
-            _ => ty,
-        }
+        Owner::of_types(&self.defs).integer(ty)
     }
 
     /// Returns the types in the order of the file, followed by types that a name such as `BITARR8` defines.

@@ -174,8 +174,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn log_entry(&mut self, tag: &Tag<'a>, code: i128, last: Option<i128>) -> Read<CodeRow> {
-        let mut row = empty_row(code);
-        row.last = last;
+        let mut row = CodeRow { code, last, ..CodeRow::default() };
         while let Some(child) = self.child(tag)? {
             match child.name {
                 "Name" => row.name = self.text_reference(&child)?,
@@ -240,7 +239,7 @@ impl<'a> Reader<'a, '_> {
 
 impl Code {
     fn row(self, parent_code: Option<i128>) -> Option<CodeRow> {
-        let mut row = empty_row(self.code?);
+        let mut row = CodeRow { code: self.code?, ..CodeRow::default() };
         (row.name, row.documentation) = (self.name, self.documentation);
         let (state, api) = (Value::Text(self.state), Value::Int(self.api.into()));
         row.cells = match parent_code {
@@ -258,21 +257,6 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
         rows: rows.into(),
         origin,
         ..CodeTable::default()
-    }
-}
-
-fn empty_row(code: i128) -> CodeRow {
-    CodeRow {
-        printed: CompactString::default(),
-        printed_cells: Vec::new(),
-        code,
-        last: None,
-        name: CompactString::default(),
-        names: Default::default(),
-        availability: None,
-        documentation: None,
-        cells: Vec::new(),
-        stated_by: None,
     }
 }
 

@@ -6,6 +6,7 @@
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::collections::HashMap;
 use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
+use crate::ir::owner::Owner;
 use crate::ir::stated::is_of_profile;
 use crate::ir::{
     Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Condition, Device, Direction, Documentation, Fact,
@@ -195,16 +196,7 @@ impl<'p> Completion<'p> {
 
     /// Returns the basic type under bit fields, enumerations, aliases and scaled types.
     fn underlying(&self, ty: Type) -> Type {
-        let mut ty = ty;
-        // The loop ends, because a definition refers only to earlier definitions.
-        while let Type::Named(TypeId(id)) = ty {
-            match self.types.get(id as usize).map(|definition| &definition.shape) {
-                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
-                Some(Shape::Scaled { base, .. }) => ty = *base,
-                _ => break,
-            }
-        }
-        ty
+        Owner::of_types(&self.types).basic(ty)
     }
 
     /// Returns whether a type is basic, or an alias of a basic type.
