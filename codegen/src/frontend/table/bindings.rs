@@ -41,7 +41,7 @@ impl Rows {
         let count = match &given.value {
             NumberOrText::Number(count) => u32::try_from(*count).ok(),
             NumberOrText::Text(item) => {
-                self.references.push((At { value: item.clone(), start: given.start, end: given.end }, ITEM));
+                reader.mention([&At { value: item.clone(), start: given.start, end: given.end }], ITEM);
                 if row.max_count.is_none() {
                     let message = "`count` names an item, but the maximum number of items is missing";
                     let found = codes::TABLE_VALUE.at(reader.span(given), message);
@@ -69,14 +69,8 @@ impl Rows {
             _ => None,
         };
         let base = of_definition.and_then(|(kind, name)| self.definitions.base(reader, kind, name));
-        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
-            let bits = match named.ty {
-                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
-                Type::UnicodeString(Some(units)) => units.checked_mul(16),
-                ty => ty.bits(),
-            };
-            bits?.checked_mul(named.elements.unwrap_or(1))
-        });
+        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value));
+        let bits = bits.and_then(|named| self.definitions.bits_of(named.ty)?.checked_mul(named.elements.unwrap_or(1)));
         let bits = bits.or(base.and_then(Type::bits));
         let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }

@@ -2,23 +2,16 @@
 
 use super::at::At;
 use super::format::CompositeTable;
-use super::references::{References, ITEM};
+use super::references::ITEM;
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Composite, Device};
 
 /// Reads a number that is split over several items.
-pub(super) fn composite(
-    reader: &mut Reader<'_, '_>,
-    name: &At<String>,
-    table: &CompositeTable,
-    device: &mut Device,
-    references: &mut References,
-) {
+pub(super) fn composite(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CompositeTable, device: &mut Device) {
     let origin = reader.origin(name);
     let doubts = reader.doubts_of(table, origin);
-    references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
-    references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
+    reader.mention(table.parts.iter().chain(&table.sign), ITEM);
     let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {
         (0..=1, ..) => "`parts` needs at least two items, the most significant one first",
         (_, None | Some(0..=1), ..) => "`base`, the ratio of a part to the next one, must be at least 2",

@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::at::{At, OneOrMany};
 use super::buses;
 use super::format::{ConditionValues, Conditions};
-use super::references::{References, ITEM};
+use super::references::ITEM;
 use super::tree::Reader;
 use super::value;
 use crate::diagnostics::codes;
@@ -21,28 +21,20 @@ pub(super) struct GivenAvailability<'t> {
 }
 
 /// Reads the condition of a bit or value. Reports a condition on several items, and reads only its first item.
-pub(super) fn condition(
-    reader: &mut Reader<'_, '_>,
-    references: &mut References,
-    when: Option<&Conditions>,
-) -> Option<Box<Condition>> {
+pub(super) fn condition(reader: &mut Reader<'_, '_>, when: Option<&Conditions>) -> Option<Box<Condition>> {
     let given = when?;
     if let Some((second, _)) = given.0.get(1) {
         let message = "the condition of a bit or value depends on more than one item";
         reader.report(&codes::TABLE_VALUE, reader.span(second), message);
     }
-    conditions(reader, references, given).into_iter().next().map(Box::new)
+    conditions(reader, given).into_iter().next().map(Box::new)
 }
 
 /// Reads conditions that compare the values of other items.
-pub(super) fn conditions(
-    reader: &mut Reader<'_, '_>,
-    references: &mut References,
-    when: &Conditions,
-) -> Vec<Condition> {
+pub(super) fn conditions(reader: &mut Reader<'_, '_>, when: &Conditions) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for (item, given) in when.iter() {
-        references.push((item.clone(), ITEM));
+        reader.mention([item], ITEM);
         let (mask, literals) = match &given.value {
             ConditionValues::Values(OneOrMany(values)) => (None, values.as_slice()),
             ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |value| value.0.as_slice())),
@@ -62,13 +54,9 @@ pub(super) fn conditions(
 
 /// Reads the models, firmware versions and buses that have an element, and the element that replaces it. Returns `None` if the
 /// table states none of these facts.
-pub(super) fn availability(
-    reader: &mut Reader<'_, '_>,
-    references: &mut References,
-    given: GivenAvailability<'_>,
-) -> Option<Box<Availability>> {
+pub(super) fn availability(reader: &mut Reader<'_, '_>, given: GivenAvailability<'_>) -> Option<Box<Availability>> {
     let models = given.models.into_iter().flatten();
-    references.extend(models.clone().map(|model| (model.clone(), "model")));
+    reader.mention(models.clone(), "model");
     let [since, until] = given.versions;
     let availability = Availability {
         models: models.map(|model| model.value.as_str().into()).collect(),

@@ -8,12 +8,12 @@ use super::conditions::{self, GivenAvailability};
 use super::format::{
     BitEntries, BitTable, BitsTable, Documented, Doubted, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable,
 };
-use super::references::References;
 use super::tree::Reader;
 use super::words::ACCESSES;
 use super::{lints, notation, types, value};
 use crate::collections::HashMap;
 use crate::diagnostics::codes;
+use crate::ir::owner::Owner;
 use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::number::hex16;
 use crate::source::Origin;
@@ -36,8 +36,6 @@ pub(super) struct Definitions {
     pub types: Vec<TypeDef>,
     /// Types that were created for each definition, one for each underlying integer type.
     pub made: HashMap<(DefinitionKind, String), Vec<(Type, TypeId)>>,
-    /// Names to which definitions refer, with their spans.
-    pub mentioned: References,
 }
 
 /// Name, documentation, ambiguities and origin of a definition.
@@ -112,28 +110,12 @@ impl Definitions {
     /// Returns the type on which an alias, a bit field, an enumeration or a scaled type is based. Returns any other
     /// type unchanged.
     pub fn underlying(&self, ty: Type) -> Type {
-        let mut ty = ty;
-        // The types form no cycle, because each type refers only to earlier types.
-        while let Type::Named(TypeId(id)) = ty {
-            match self.types.get(id as usize).map(|def| &def.shape) {
-                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
-                Some(Shape::Scaled { base, .. }) => ty = *base,
-                _ => break,
-            }
-        }
-        ty
+        Owner::of_types(&self.types).basic(ty)
     }
 
     /// Returns the length of a basic or named type in bits, or `None` if the length varies or is unknown.
     pub fn bits_of(&self, ty: Type) -> Option<u32> {
-        match ty {
-            Type::Named(TypeId(id)) => self.types.get(id as usize).and_then(|def| def.bits),
-            ty => match ty {
-                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
-                Type::UnicodeString(Some(units)) => units.checked_mul(16),
-                ty => ty.bits(),
-            },
-        }
+        Owner::of_types(&self.types).fixed_bits(ty)
     }
 
     /// Creates types for unused definitions, so that the compiler reports errors in these definitions, and the output
@@ -222,8 +204,8 @@ impl Definitions {
                 last: (last > first).then_some(last),
                 zone,
                 names: reader.original(more.orig.as_deref()),
-                when: conditions::condition(reader, &mut self.mentioned, more.when.as_ref()),
-                availability: conditions::availability(reader, &mut self.mentioned, given_availability(more)),
+                when: conditions::condition(reader, more.when.as_ref()),
+                availability: conditions::availability(reader, given_availability(more)),
                 documentation: reader.documentation_of(more),
                 at: Mark(reader.span(key)),
             });
@@ -295,12 +277,11 @@ impl Definitions {
             offset,
             bits,
             meaning,
-            when: conditions::condition(reader, &mut self.mentioned, table.when.as_ref()),
+            when: conditions::condition(reader, table.when.as_ref()),
             trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
             access: table.access.as_ref().and_then(|access| reader.word(access, "access right", &ACCESSES)),
             availability: conditions::availability(
                 reader,
-                &mut self.mentioned,
                 GivenAvailability {
                     models: table.models.as_ref(),
                     versions: [table.since.as_deref(), table.until.as_deref()],
@@ -443,8 +424,7 @@ pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Opti
 
 /// Returns the integer type called `name`. Returns `None` and reports the name if it is not an integer type.
 pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
-    let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
-    let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));
+    let integer = types::single(&name.value).filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));
     if integer.is_none() {
         let message = format!("`{}` is not an integer type such as `u16`", brief(&name.value));
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);

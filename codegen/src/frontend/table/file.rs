@@ -97,7 +97,7 @@ pub fn read(
     }
     device.groups.extend(dictionary.into_values());
     for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
-        device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
+        device.given.push(given::number(&mut reader, &name, &given));
     }
     // Fields of images and messages have types, so they are read before the types are moved from `rows` to the device.
     table.frames(&mut reader, &mut rows, &mut device);
@@ -210,6 +210,7 @@ impl<'a> Table<'a> {
         let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
         let spaces = Entries(spaces.into_iter().map(at).collect());
         let defaults = self.node("defaults").and_then(|node| defaults::read(reader, node));
+        windows::mention(reader, &spaces);
         Rows {
             repeats: Repeats::new(defaults.as_ref()),
             definitions,
@@ -217,7 +218,6 @@ impl<'a> Table<'a> {
             modbus: spaces::modbus_tables(reader, &spaces),
             buses,
             defaults,
-            references: windows::references(&spaces),
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
@@ -252,7 +252,7 @@ impl<'a> Table<'a> {
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
             let models = axes.value.models.iter().flatten();
-            rows.references.extend(models.map(|model| (model.clone(), "model")));
+            reader.mention(models, "model");
             device::axes(reader, &axes, device);
         }
         let mut pdos = Vec::new();
@@ -268,7 +268,7 @@ impl<'a> Table<'a> {
                 at::TextOr::Table(row) => row.models.as_ref(),
                 at::TextOr::Text(_) => None,
             });
-            rows.references.extend(models.flatten().map(|model| (model.clone(), "model")));
+            reader.mention(models.flatten(), "model");
             let end = table.rows.iter().map(|(_, row)| row.end).fold(name.end, u32::max);
             rows.allow_at(reader, (name.start, end), &table.allow);
             code_tables::table(reader, &name, &table, device);
@@ -287,23 +287,23 @@ impl<'a> Table<'a> {
     fn sequences(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         let mut budget = MachineBudget::new();
         for (name, table) in self.named(reader, "machines") {
-            if !machines::machine(reader, &name, &table, device, &mut budget, &mut rows.references) {
+            if !machines::machine(reader, &name, &table, device, &mut budget) {
                 break;
             }
         }
         for (name, table) in self.named::<format::ProcedureTable>(reader, "procedures") {
             let end = table.steps.iter().map(|step| step.end).fold(name.end, u32::max);
             rows.allow_at(reader, (name.start, end), &table.allow);
-            machines::procedure(reader, &name, &table, device, &mut rows.references);
+            machines::procedure(reader, &name, &table, device);
         }
         for (name, table) in self.named(reader, "composites") {
-            composites::composite(reader, &name, &table, device, &mut rows.references);
+            composites::composite(reader, &name, &table, device);
         }
     }
 }
 
 /// Reports names that do not refer to an element of the device, and ambiguous item names.
 pub(super) fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
-    let all = rows.references.iter().chain(&rows.definitions.mentioned);
-    references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);
+    let all = std::mem::take(&mut reader.references);
+    references::resolve(reader, &all, device, &rows.numbered);
 }

@@ -2,7 +2,6 @@
 
 use super::at::At;
 use super::format::{GivenTable, MachineUnitTable};
-use super::references::References;
 use super::tree::Reader;
 use super::{units, value};
 use crate::diagnostics::codes;
@@ -10,18 +9,13 @@ use crate::ir::{GivenNumber, MachineUnit, Type};
 use crate::text::brief;
 
 /// Reads a machine constant from the table `[given]`.
-pub(super) fn number(
-    reader: &mut Reader<'_, '_>,
-    name: &At<String>,
-    table: &GivenTable,
-    references: &mut References,
-) -> GivenNumber {
+pub(super) fn number(reader: &mut Reader<'_, '_>, name: &At<String>, table: &GivenTable) -> GivenNumber {
     if let Some(unit) = &table.unit {
         symbol(reader, unit);
     }
     let mut models = Vec::new();
     for (model, given) in table.models.iter() {
-        references.push((model.clone(), "model"));
+        reader.mention([model], "model");
         models.push((reader.reference(model), value::value(reader, given, Type::Real64)));
     }
     let origin = reader.origin(name);
@@ -36,13 +30,8 @@ pub(super) fn number(
 }
 
 /// Reads the machine unit of a unit in the table `[units]`. Returns `None` if the machine unit has no symbol.
-pub(super) fn unit(
-    reader: &mut Reader<'_, '_>,
-    table: &MachineUnitTable,
-    references: &mut References,
-) -> Option<Box<MachineUnit>> {
-    let given = table.times.iter().chain(&table.over);
-    references.extend(given.map(|name| (name.clone(), "given number")));
+pub(super) fn unit(reader: &mut Reader<'_, '_>, table: &MachineUnitTable) -> Option<Box<MachineUnit>> {
+    reader.mention(table.times.iter().chain(&table.over), "given number");
     let unit = table.unit.as_ref()?;
     symbol(reader, unit);
     let names = |list: &[At<String>]| list.iter().map(|name| reader.reference(name)).collect();

@@ -11,7 +11,7 @@ use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::ir::{
     Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
-    PdoEntryKind, ProcessImage, Type, TypeDef,
+    PdoEntryKind, ProcessImage, Type,
 };
 use crate::text::brief;
 
@@ -156,10 +156,10 @@ fn of_item(
         reader.report_with_help(&codes::TABLE_VALUE, reader.span(key), message, help);
     }
     let ty = match &field.ty {
-        Some(given) => types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty),
+        Some(given) => types::single(&given.value),
         None => Some(item.ty),
     };
-    position(reader, &rows.definitions.types, key, field, ty)
+    position(reader, rows, key, field, ty)
 }
 
 /// Reads a field that defines a new item. The field is read as a row that has the same keys.
@@ -174,7 +174,7 @@ fn new_item(
     let row = field_row!(given);
     let named = Named { name: &key.value, key, number: 0, end: field.end };
     let ty = rows.ty(reader, named, &row)?;
-    let position = position(reader, &rows.definitions.types, key, given, Some(ty))?;
+    let position = position(reader, rows, key, given, Some(ty))?;
     let mut item = Item::new(Binding::Ascii(CompactString::default()));
     item.access = match direction {
         Direction::Receive => Access::ReadWrite,
@@ -186,18 +186,12 @@ fn new_item(
 
 fn position(
     reader: &mut Reader<'_, '_>,
-    types: &[TypeDef],
+    rows: &Rows,
     key: &At<String>,
     field: &ImageField,
     ty: Option<Type>,
 ) -> Option<FieldPosition> {
-    let bits = match ty {
-        Some(Type::Named(id)) => types.get(id.0 as usize).and_then(|definition| definition.bits),
-        Some(Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes))) => bytes.checked_mul(8),
-        Some(Type::UnicodeString(Some(units))) => units.checked_mul(16),
-        other => other.and_then(Type::bits),
-    };
-    let Some((at, bits)) = field.at.zip(bits) else {
+    let Some((at, bits)) = field.at.zip(ty.and_then(|ty| rows.definitions.bits_of(ty))) else {
         let message = format!("the field `{}` needs an `at`, and a `type` with a fixed length", brief(&key.value));
         reader.report(&codes::TABLE_VALUE, reader.span(key), message);
         return None;

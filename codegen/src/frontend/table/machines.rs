@@ -4,7 +4,6 @@ use super::at::At;
 use super::format::{MachineTable, ProcedureTable, StepTable, TransitionTable};
 use super::machine_budget::MachineBudget;
 use super::outcomes::Names;
-use super::references::References;
 use super::states::{patterns, states};
 use super::tree::Reader;
 use super::{lints, outcomes, process, value};
@@ -23,7 +22,6 @@ pub(super) fn machine(
     table: &MachineTable,
     device: &mut Device,
     budget: &mut MachineBudget,
-    references: &mut References,
 ) -> bool {
     if !budget.take(reader, name, table, device) {
         return false;
@@ -37,7 +35,7 @@ pub(super) fn machine(
         table.transitions.iter().flat_map(|given| transition(reader, given, &names)).collect();
     for item in [&table.status, &table.control].into_iter().flatten() {
         if !is_field_of_reply(device, &item.value) {
-            references.push((item.clone(), "item"));
+            reader.mention([item], "item");
         }
     }
     if let Some(initial) = &table.initial {
@@ -48,7 +46,7 @@ pub(super) fn machine(
     }
     let mut rows = Vec::new();
     if let Some(matrix) = &table.matrix {
-        rows = outcomes::read(reader, &matrix.value, &names, references);
+        rows = outcomes::read(reader, &matrix.value, &names);
         doubts.extend(outcomes::doubts(reader, matrix));
     }
     device.machines.push(StateMachine {
@@ -111,13 +109,7 @@ fn transition(reader: &mut Reader<'_, '_>, given: &At<TransitionTable>, names: &
 }
 
 /// Reads a procedure, which is a sequence of steps.
-pub(super) fn procedure(
-    reader: &mut Reader<'_, '_>,
-    name: &At<String>,
-    table: &ProcedureTable,
-    device: &mut Device,
-    references: &mut References,
-) {
+pub(super) fn procedure(reader: &mut Reader<'_, '_>, name: &At<String>, table: &ProcedureTable, device: &mut Device) {
     let origin = reader.origin(name);
     let doubts = reader.doubts_of(table, origin);
     for argument in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
@@ -129,7 +121,7 @@ pub(super) fn procedure(
     let mut steps = Vec::with_capacity(table.steps.len());
     let mut step_spans = Vec::with_capacity(table.steps.len());
     for given in &table.steps {
-        if let Some(step) = step(reader, given, references) {
+        if let Some(step) = step(reader, given) {
             steps.push(step);
             step_spans.push(reader.span(given));
         }
@@ -151,7 +143,7 @@ const STEP: &str =
     "a step must be one of: `write` with `value` (and `mask`) or `argument`; `read`; `wait` with `value` (and \
                     `mask`, `timeout`); `delay`; `send`; `exchange`; `manual`";
 
-fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut References) -> Option<Step> {
+fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>) -> Option<Step> {
     let row = &given.value;
     let number = row.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
     let given_keys = [
@@ -168,10 +160,10 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
     let found = if !is_one {
         None
     } else if let Some(item) = &row.write {
-        references.push((item.clone(), "item"));
+        reader.mention([item], "item");
         written(row, reader.reference(item), number)
     } else if let Some(item) = &row.wait {
-        references.push((item.clone(), "item"));
+        reader.mention([item], "item");
         let mask = row.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
         let timeout = row.timeout.as_ref().map(|timeout| timeout.value);
         number
@@ -180,10 +172,10 @@ fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut Ref
     } else if has_value {
         None
     } else if let Some(item) = &row.read {
-        references.push((item.clone(), "item"));
+        reader.mention([item], "item");
         Some(Step::Read(reader.reference(item)))
     } else if let Some(message) = &row.send {
-        references.push((message.clone(), "message"));
+        reader.mention([message], "message");
         Some(Step::Send(reader.reference(message)))
     } else if let Some(exchange) = &row.exchange {
         return process::direction(reader, Some(exchange)).map(Step::Exchange);

@@ -4,7 +4,7 @@ use super::at::{At, FlagOr, Literal, TextOr};
 use super::format::{
     field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row, SpaceTable,
 };
-use super::references::{References, ITEM_OR_FIELD};
+use super::references::ITEM_OR_FIELD;
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::{conditions, framing, notation, types, value, Table};
@@ -40,7 +40,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
         framing::read(reader, &table, device);
     }
     let tables = file.spaces.iter().map(|(name, table)| (name, table));
-    spaces(reader, tables, device, &mut rows.references);
+    spaces(reader, tables, device);
 }
 
 /// Reads the spaces whose key `parameter` names the messages that transfer parameters.
@@ -48,12 +48,11 @@ fn spaces<'t>(
     reader: &mut Reader<'_, '_>,
     tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
     device: &mut Device,
-    references: &mut References,
 ) {
     for (name, table) in tables {
         let Some(FlagOr::Table(rule)) = &table.parameter else { continue };
         let messages = [&rule.read, &rule.write, &rule.store];
-        references.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
+        reader.mention(messages.into_iter().flatten(), "message");
         device.parameter_spaces.push(ParameterSpace {
             name: text(name),
             read: rule.read.as_ref().map(|name| reader.reference(name)),
@@ -100,8 +99,8 @@ fn message(
         with.numbers(list, fields);
     }
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
-    let completion = completion(reader, rows, given.completion.as_ref(), &replies);
-    references(given, &mut rows.references);
+    let completion = completion(reader, given.completion.as_ref(), &replies);
+    mention(reader, given);
     let availability = availability(given);
     let mut doubts = reader.doubts_of(given, origin);
     let examples = given.examples.iter().map(|frames| example(reader, frames, &mut doubts)).collect();
@@ -118,11 +117,7 @@ fn message(
         by_default: given.default,
         error: given.error.as_ref().map(|name| reader.reference(name)),
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
-        accepted_when: given
-            .when
-            .as_ref()
-            .map(|when| conditions::conditions(reader, &mut rows.definitions.mentioned, when))
-            .unwrap_or_default(),
+        accepted_when: given.when.as_ref().map(|when| conditions::conditions(reader, when)).unwrap_or_default(),
         names: reader.original(given.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         accepted_in: given.accepted_in.iter().map(|name| reader.reference(name)).collect(),
@@ -184,17 +179,16 @@ fn availability(message: &MessageTable) -> Availability {
     }
 }
 
-/// Adds to `all` the names to which a message refers.
-fn references(message: &MessageTable, all: &mut References) {
+/// Adds the names to which a message refers.
+fn mention(reader: &mut Reader<'_, '_>, message: &MessageTable) {
     let messages = [&message.after, &message.error, &message.replaced_by];
-    all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
-    all.extend(message.models.iter().flatten().map(|name| (name.clone(), "model")));
-    all.extend(message.accepted_in.iter().map(|name| (name.clone(), "state")));
+    reader.mention(messages.into_iter().flatten(), "message");
+    reader.mention(message.models.iter().flatten(), "model");
+    reader.mention(&message.accepted_in, "state");
 }
 
 fn completion(
     reader: &mut Reader<'_, '_>,
-    rows: &mut Rows,
     given: Option<&At<TextOr<CompletionTable>>>,
     replies: &[CompactString],
 ) -> Completion {
@@ -210,8 +204,7 @@ fn completion(
                 // Text after a dot names a bit of the item or field. Only the item or field is looked up.
                 let whole = item.value.split('.').next().unwrap_or_default();
                 if !replies.iter().any(|field| field == whole) {
-                    let name = At { value: whole.to_owned(), start: item.start, end: item.end };
-                    rows.references.push((name, ITEM_OR_FIELD));
+                    reader.mention([&At { value: whole.to_owned(), start: item.start, end: item.end }], ITEM_OR_FIELD);
                 }
                 let value = table.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
                 Some(Completion::Polled {

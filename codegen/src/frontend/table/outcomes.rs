@@ -2,7 +2,6 @@
 
 use super::at::{At, TextOr};
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
-use super::references::References;
 use super::tree::{cited, Reader};
 use crate::collections::HashSet;
 use crate::diagnostics::codes;
@@ -46,18 +45,13 @@ impl<'n> Names<'n> {
 }
 
 /// Reads the rows of a state-command matrix.
-pub(super) fn read(
-    reader: &mut Reader<'_, '_>,
-    table: &MatrixTable,
-    names: &Names<'_>,
-    references: &mut References,
-) -> Vec<CommandOutcomes> {
+pub(super) fn read(reader: &mut Reader<'_, '_>, table: &MatrixTable, names: &Names<'_>) -> Vec<CommandOutcomes> {
     for state in &table.states {
         names.state(reader, &state.value, reader.span(state));
     }
     let mut rows = Vec::new();
     for (name, row) in table.rows.iter() {
-        rows.push(self::row(reader, table, name, row, names, references));
+        rows.push(self::row(reader, table, name, row, names));
     }
     rows
 }
@@ -77,7 +71,6 @@ fn row(
     name: &At<String>,
     row: &At<MatrixRow>,
     names: &Names<'_>,
-    references: &mut References,
 ) -> CommandOutcomes {
     let cells_row = &row.value;
     let commands = match &cells_row.commands {
@@ -87,7 +80,7 @@ fn row(
     for command in &commands {
         names.command(reader, &command.value, reader.span(command));
     }
-    references.extend(cells_row.models.iter().flatten().map(|model| (model.clone(), "model")));
+    reader.mention(cells_row.models.iter().flatten(), "model");
     if cells_row.cells.len() != table.states.len() {
         let message = format!(
             "`{}` has {}, but the matrix has {}",

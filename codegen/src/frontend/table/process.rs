@@ -119,8 +119,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
     }
     if let Some(name) = what.strip_prefix('?').map(str::trim) {
-        let typed = length.and_then(types::named).filter(|named| named.elements.is_none());
-        let ty = typed.map_or(Type::Opaque(None), |named| named.ty);
+        let ty = length.and_then(types::single).unwrap_or(Type::Opaque(None));
         let bits = bits.or(ty.bits()).filter(|&bits| bits > 0 && !name.is_empty());
         if bits.is_none() {
             let message = "a PDO entry without an object needs a name, and a length or type";

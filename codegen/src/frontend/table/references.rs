@@ -22,15 +22,10 @@ pub(super) const ITEM: &str = "item";
 pub(super) const ITEM_OR_FIELD: &str = "item or field";
 
 /// Reports names without a definition, and item names that occur in several chapters.
-pub(super) fn resolve<'r>(
-    reader: &mut Reader<'_, '_>,
-    references: impl Iterator<Item = (&'r At<String>, &'static str)>,
-    device: &Device,
-    numbered: &[Numbered],
-) {
+pub(super) fn resolve(reader: &mut Reader<'_, '_>, references: &References, device: &Device, numbered: &[Numbered]) {
     let known = Known::new(device);
     let mut seen = HashSet::default();
-    for (name, kind) in references {
+    for &(ref name, kind) in references {
         // The names in a unit or space occur again for each row that uses the unit or space, but are checked only once.
         if !seen.insert((name.start, name.value.as_str(), kind)) {
             continue;

@@ -6,7 +6,7 @@ use super::at::{At, Entries, Literal, OneOrMany, TextOr};
 use super::definitions::{DefinitionKind, Definitions};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
-use super::references::{References, ITEM};
+use super::references::ITEM;
 use super::repeats::Repeats;
 use super::spaces::Space;
 use super::summary::{self, Summaries};
@@ -29,8 +29,6 @@ pub(super) struct Rows {
     pub modbus: Vec<ModbusTable>,
     pub buses: Buses,
     pub defaults: Option<Row>,
-    /// Names to which rows refer, with the kinds of elements.
-    pub references: References,
     /// Items that have register numbers.
     pub numbered: Vec<Numbered>,
     /// Diagnostics that rows and definitions allow, with the spans in which they are allowed.
@@ -282,7 +280,7 @@ impl Rows {
             };
             quantity.units = reader.original(unit_table.as_ref().and_then(|table| table.orig.as_deref()));
             let machine = unit_table.as_ref().and_then(|table| table.machine.as_ref());
-            quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
+            quantity.machine = machine.and_then(|machine| given::unit(reader, machine));
             if unit_table.is_none() && !unit.value.is_empty() && !super::units::is_unit(&unit.value) {
                 let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let names = names.take_while(|_| reader.helps());
@@ -301,7 +299,7 @@ impl Rows {
             _ => (row.scale.as_ref(), row.offset),
         };
         if unit_table.is_some() || row.scale.is_some() || row.offset.is_some() {
-            quantity.scale = scale::read(reader, scale, offset, item.at.name, &mut self.references);
+            quantity.scale = scale::read(reader, scale, offset, item.at.name);
         }
         for (key, meaning) in row.na.iter().flat_map(|na| na.iter()) {
             let literal = At { value: Literal::Text(key.value.clone()), start: key.start, end: key.end };
@@ -319,8 +317,8 @@ impl Rows {
             let message = "a conversion needs a `raw` value and a physical `value`";
             reader.report(&codes::TABLE_VALUE, reader.span(given), message);
         }
-        self.references.extend(example.model.iter().map(|name| (name.clone(), "model")));
-        self.references.extend(example.given.iter().map(|(name, _)| (name.clone(), "given number")));
+        reader.mention(&example.model, "model");
+        reader.mention(example.given.iter().map(|(name, _)| name), "given number");
         Conversion {
             raw: example.raw.map(Into::into),
             value: example.value,
@@ -352,7 +350,7 @@ impl Rows {
             behavior.effective = Some(effective.as_str().into());
         }
         if let Some(when) = &row.when {
-            behavior.write_when = conditions::conditions(reader, &mut self.definitions.mentioned, when);
+            behavior.write_when = conditions::conditions(reader, when);
         }
         if let Some(values) = &row.writable {
             behavior.writable_values = value::listed(reader, &values.value, (values.start, values.end), base);
@@ -382,14 +380,14 @@ impl Rows {
             item.availability.take().map_or_else(Availability::default, |availability| *availability);
         if let Some(models) = &row.models {
             availability.models = models.iter().map(|model| model.value.as_str().into()).collect();
-            self.references.extend(models.iter().map(|model| (model.clone(), "model")));
+            reader.mention(models, "model");
         }
         let text = |given: &Option<String>, old: Option<CompactString>| given.as_deref().map(Into::into).or(old);
         (availability.since, availability.until) =
             (text(&row.since, availability.since), text(&row.until, availability.until));
         if let Some(replaced) = &row.replaced_by {
             availability.replaced_by = Some(reader.reference(replaced));
-            self.references.push((replaced.clone(), ITEM));
+            reader.mention([replaced], ITEM);
         }
         // Buses are stored only if they include PROFINET or a serial line, because the addresses of an item show all
         // other buses.
@@ -404,9 +402,9 @@ impl Rows {
         self.related(reader, item, row);
     }
 
-    fn related(&mut self, reader: &Reader<'_, '_>, item: &mut Item, row: &Row) {
+    fn related(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         let names = [&row.upper, &row.same_quantity, &row.same_as];
-        self.references.extend(names.into_iter().flatten().map(|name| (name.clone(), ITEM)));
+        reader.mention(names.into_iter().flatten(), ITEM);
         let mut related = item.related.take().map_or_else(RelatedItems::default, |related| *related);
         let found = |name: &Option<At<String>>| name.as_ref().map(|name| Box::new(reader.reference(name)));
         related.upper_half = found(&row.upper).or(related.upper_half);

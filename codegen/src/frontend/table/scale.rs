@@ -2,7 +2,7 @@
 
 use super::at::At;
 use super::format::{ScaleRule, Scaling};
-use super::references::{References, ITEM};
+use super::references::ITEM;
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{ItemRef, Scale};
@@ -18,10 +18,9 @@ pub(super) fn read(
     given: Option<&At<Scaling>>,
     offset: Option<f64>,
     row: Span,
-    references: &mut References,
 ) -> Option<Scale> {
     match (given, offset) {
-        (Some(given), _) => explicit(reader, given, offset, references).flatten(),
+        (Some(given), _) => explicit(reader, given, offset).flatten(),
         (None, Some(offset)) if !offset.is_finite() => {
             reader.report(&codes::TABLE_VALUE, row, NO_OFFSET);
             None
@@ -33,27 +32,18 @@ pub(super) fn read(
 const NO_OFFSET: &str = "the offset is not a finite number";
 
 /// Reads the scale of a variant. A factor of 1 counts as a scale, because it replaces the scale of the row.
-pub(super) fn of_variant(
-    reader: &mut Reader<'_, '_>,
-    given: Option<&At<Scaling>>,
-    references: &mut References,
-) -> Option<Scale> {
-    let found = explicit(reader, given?, None, references)?;
+pub(super) fn of_variant(reader: &mut Reader<'_, '_>, given: Option<&At<Scaling>>) -> Option<Scale> {
+    let found = explicit(reader, given?, None)?;
     Some(found.unwrap_or(Scale::Linear { factor: 1.0, offset: 0.0 }))
 }
 
 /// Reads a scale that the table declares. Returns `Some(None)` for a factor of 1 without an offset. Reports an invalid
 /// scale, and returns `None`.
-fn explicit(
-    reader: &mut Reader<'_, '_>,
-    given: &At<Scaling>,
-    offset: Option<f64>,
-    references: &mut References,
-) -> Option<Option<Scale>> {
+fn explicit(reader: &mut Reader<'_, '_>, given: &At<Scaling>, offset: Option<f64>) -> Option<Option<Scale>> {
     let found = match &given.value {
         _ if offset.is_some_and(|offset| !offset.is_finite()) => Err(NO_OFFSET.to_owned()),
         Scaling::Factor(factor) => number("the scale", *factor).map(|factor| linear(factor, offset.unwrap_or(0.0))),
-        Scaling::Rule(rule) => self::rule(rule, offset, references),
+        Scaling::Rule(rule) => self::rule(reader, rule, offset),
     };
     match found {
         Ok(scale) => Some(scale),
@@ -89,7 +79,7 @@ const FORMS: [(&str, &[&str]); 8] = [
     ("factor", &["offset"]),
 ];
 
-fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) -> Result<Option<Scale>, String> {
+fn rule(reader: &mut Reader<'_, '_>, rule: &ScaleRule, separate: Option<f64>) -> Result<Option<Scale>, String> {
     if separate.is_some() && rule.offset.is_some() {
         return Err("`offset` is given both in the scale rule and next to it".to_owned());
     }
@@ -117,7 +107,7 @@ fn rule(rule: &ScaleRule, separate: Option<f64>, references: &mut References) ->
     let item = |given: &Option<At<String>>| given.as_ref().map(|name| name.value.as_str().into()).unwrap_or_default();
     let constant = rule.of.as_ref().map(|name| name.value.as_str().into()).unwrap_or_default();
     for (given, kind) in [(&rule.by, ITEM), (&rule.times, ITEM), (&rule.exponent, ITEM), (&rule.of, "constant")] {
-        references.extend(given.iter().map(|given| (given.clone(), kind)));
+        reader.mention(given, kind);
     }
     Ok(match key {
         "exponent" => Some(exponent(rule, item(&rule.exponent))?),

@@ -107,11 +107,8 @@ fn of_item(
     let base = definitions.underlying(item.ty);
     let mut differs = Vec::new();
     if let Some(given) = &summary.ty {
-        let named = types::named(&given.value).filter(|named| named.elements.is_none());
-        match named {
-            Some(named) if named.ty != base => {
-                differs.push((reader.span(given), format!("the type {}", named.ty), base.to_string()))
-            }
+        match types::single(&given.value) {
+            Some(ty) if ty != base => differs.push((reader.span(given), format!("the type {ty}"), base.to_string())),
             Some(_) => {}
             None => {
                 let message = format!("`{}` is not a known data type", brief(&given.value));

@@ -11,6 +11,7 @@ use super::document::{self, Table, Value};
 use super::format::{Cited, Documented, DoubtTable, Doubted, NumberOrText, OptionTable};
 pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
+use super::references::References;
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Code, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Texts};
@@ -38,13 +39,15 @@ pub(super) struct Reader<'a, 'd> {
     pub standard: CompactString,
     /// Byte ranges of the elements in each list, by the byte range of the list.
     pub lists: RefCell<HashMap<ByteRange, Rc<[ByteRange]>>>,
+    /// Names that were read, and the kinds of elements to which they refer.
+    pub references: References,
 }
 
 impl<'a, 'd> Reader<'a, 'd> {
     /// Creates a reader for a file whose language and standard are not known yet.
     pub fn new(source: &'a Source, file: FileId, diagnostics: &'d mut Diagnostics) -> Self {
-        let (language, standard, lists) = Default::default();
-        Reader { source, file, diagnostics, language, standard, lists }
+        let (language, standard, lists, references) = Default::default();
+        Reader { source, file, diagnostics, language, standard, lists, references }
     }
 }
 
@@ -194,6 +197,11 @@ impl<'a> Reader<'a, '_> {
 
     pub fn span<T>(&self, at: &At<T>) -> Span {
         Span::new(self.file, at.start, at.end)
+    }
+
+    /// Adds names that refer to elements of the kind `kind`. The names are looked up after all elements are read.
+    pub fn mention<'n>(&mut self, names: impl IntoIterator<Item = &'n At<String>>, kind: &'static str) {
+        self.references.extend(names.into_iter().map(|name| (name.clone(), kind)));
     }
 
     /// Creates a reference to the element called `name`.

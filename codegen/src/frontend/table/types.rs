@@ -16,13 +16,15 @@ pub(super) fn named(text: &str) -> Option<NamedType> {
     match text.strip_suffix(']').and_then(|rest| rest.split_once('[')) {
         Some((element, count)) => {
             let elements = count.trim().parse().ok().filter(|&count| count > 0)?;
-            Some(NamedType { ty: single(element.trim())?, elements: Some(elements) })
+            Some(NamedType { ty: single(element)?, elements: Some(elements) })
         }
         None => single(text).map(|ty| NamedType { ty, elements: None }),
     }
 }
 
-fn single(text: &str) -> Option<Type> {
+/// Reads the name of a type that is not an array.
+pub(super) fn single(text: &str) -> Option<Type> {
+    let text = text.trim();
     let (name, length) = match text.strip_suffix(')').and_then(|rest| rest.split_once('(')) {
         Some((name, length)) => (name, Some(length.trim().parse::<u32>().ok()?)),
         None => (text, None),

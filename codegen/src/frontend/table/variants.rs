@@ -33,7 +33,7 @@ impl Rows {
     fn variant(&mut self, reader: &mut Reader<'_, '_>, given: &At<VariantTable>, base: Type) -> ItemVariant {
         let table = &given.value;
         let models = table.models.iter().flatten();
-        self.references.extend(models.clone().map(|model| (model.clone(), "model")));
+        reader.mention(models.clone(), "model");
         let buses = table.buses.as_ref().map(|list| buses::read(reader, list));
         let ty = table.ty.as_ref().and_then(|given| self.other_type(reader, given, base));
         let allowed = table.allowed.as_ref();
@@ -54,7 +54,7 @@ impl Rows {
             default,
             limits: limits(low, high, allowed.unwrap_or_default()),
             step,
-            scale: scale::of_variant(reader, table.scale.as_ref(), &mut self.references),
+            scale: scale::of_variant(reader, table.scale.as_ref()),
             documentation: reader.documentation_of(table),
             at: reader.span(given),
         };
@@ -80,8 +80,7 @@ impl Rows {
     /// `bool`.
     fn other_type(&self, reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) -> Option<Type> {
         let is_integer = |ty: &Type| matches!(ty, Type::Integer(1..=64) | Type::Unsigned(1..=64) | Type::Boolean);
-        let found = types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
-        let found = found.filter(|ty| is_integer(ty) && is_integer(&base));
+        let found = types::single(&given.value).filter(|ty| is_integer(ty) && is_integer(&base));
         if found.is_none() {
             let message = "`type` of a variant can only change the length of an integer";
             let help = "write an integer type such as `i8` or `u16`, or a separate row";

@@ -4,7 +4,7 @@ use super::at::{At, Entries, TextOr};
 use super::buses;
 use super::format::{IndirectRule, SpaceTable, WindowTable};
 use super::notation;
-use super::references::{References, ITEM};
+use super::references::ITEM;
 use super::tree::Reader;
 use crate::diagnostics::codes;
 use crate::ir::{Binding, Buses, IndirectBinding, WindowSide};
@@ -85,30 +85,24 @@ fn side(
     })
 }
 
-/// Returns the names of the items and procedures that windows use.
-pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
-    let mut found = References::new();
-    let mut add = |name: &Option<At<String>>, kind: &'static str| {
-        found.extend(name.iter().map(|name| (name.clone(), kind)));
-    };
+/// Adds the names of the items and procedures that windows use.
+pub(super) fn mention(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) {
     let rules = tables.iter().flat_map(|(_, table)| table.value.indirect.iter().flat_map(|rules| &rules.0));
     for rule in rules {
-        add(&rule.write_address, ITEM);
-        add(&rule.procedure, "procedure");
+        reader.mention(&rule.write_address, ITEM);
+        reader.mention(&rule.procedure, "procedure");
         for given in [&rule.read, &rule.write].into_iter().flatten() {
             match &given.value {
                 TextOr::Text(name) => {
-                    add(&Some(At { value: name.clone(), start: given.start, end: given.end }), ITEM);
+                    reader.mention([&At { value: name.clone(), start: given.start, end: given.end }], ITEM);
                 }
                 TextOr::Table(side) => {
-                    add(&side.address, ITEM);
-                    add(&side.value, ITEM);
-                    add(&side.procedure, "procedure");
+                    reader.mention(side.address.iter().chain(&side.value), ITEM);
+                    reader.mention(&side.procedure, "procedure");
                 }
             }
         }
     }
-    found
 }
 
 /// Returns the windows through which the register number `first` of the space is accessed on `buses`.

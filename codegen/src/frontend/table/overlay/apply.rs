@@ -138,8 +138,6 @@ impl<'o> Applied<'o> {
 
     fn resolve_in(&mut self, reader: &mut Reader<'_, '_>, device: &Device) {
         resolve(reader, &self.patcher.rows, device);
-        self.patcher.rows.references.clear();
-        self.patcher.rows.definitions.mentioned.clear();
     }
 
     /// Reports that a changed module or submodule is also part of a device that the overlay does not select.
@@ -167,7 +165,7 @@ impl<'o> Applied<'o> {
         for (name, table) in &patch.machines {
             let before = device.machines.len();
             let replaces = device.machines.iter().any(|machine| machine.name == name.value);
-            if !machines::machine(reader, name, table, device, &mut budget, &mut self.patcher.rows.references) {
+            if !machines::machine(reader, name, table, device, &mut budget) {
                 break;
             }
             // The new machine replaces an earlier machine with the same name.
@@ -182,7 +180,7 @@ impl<'o> Applied<'o> {
         }
         for (name, table) in &patch.procedures {
             device.procedures.retain(|procedure| procedure.name != name.value);
-            machines::procedure(reader, name, table, device, &mut self.patcher.rows.references);
+            machines::procedure(reader, name, table, device);
         }
         device.doubts.extend(self.overlay_doubts(reader));
         self.resolve_in(reader, device);

@@ -89,7 +89,6 @@ impl Patch {
             modbus: Vec::new(),
             buses: Buses::ALL,
             defaults: None,
-            references: Vec::new(),
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),

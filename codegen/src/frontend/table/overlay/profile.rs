@@ -137,7 +137,7 @@ fn machines(reader: &mut Reader<'_, '_>, patch: &Patch, types: &[TypeDef]) -> Ve
     let mut device = Device { types: types.to_vec(), ..Device::default() };
     let mut budget = MachineBudget::new();
     for (name, table) in &patch.machines {
-        if !machines::machine(reader, name, table, &mut device, &mut budget, &mut Vec::new()) {
+        if !machines::machine(reader, name, table, &mut device, &mut budget) {
             break;
         }
     }
