@@ -12,10 +12,9 @@ use super::reader::{Names, Reader};
 use crate::collections::{HashMap, HashMapExt};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::etg::type_name::{self, Basic, Spelling};
-use crate::frontend::xml::Given;
+use crate::frontend::xml::{Given, Order};
 use crate::ir::owner::Owner;
 use crate::ir::{BitFieldEntry, BitMeaning, CompactString, EnumValue, Field, Shape, Type, TypeDef, TypeId};
-use crate::limits;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -26,6 +25,7 @@ pub(super) struct Types<'a> {
     values: Vec<ThinVec<EnumValue>>,
     by_name: HashMap<Cow<'a, str>, u32>,
     links: Links,
+    order: Order,
     /// IR type for each data type of the file. For an alias, this is the type that the alias names.
     meaning: Vec<Type>,
     /// Types in the order of the file, followed by types that a name such as `BITARR8` defines.
@@ -42,8 +42,6 @@ struct Links {
     fields: Vec<Option<u32>>,
     /// Position in `fields` of the first field of each data type.
     first: Vec<usize>,
-    /// For each data type, whether it contains itself, is nested too deeply, or refers to such a type.
-    endless: Vec<bool>,
 }
 
 impl Links {
@@ -80,46 +78,6 @@ impl Links {
     fn field(&self, at: usize, field: usize) -> Option<u32> {
         self.first.get(at).and_then(|first| self.fields.get(first + field).copied()).flatten()
     }
-
-    /// Returns the data types in an order in which each type comes after the types that it refers to. Types for which
-    /// no such order exists come last. Marks these types, and types that are nested too deeply.
-    fn order(&mut self) -> Vec<usize> {
-        let count = self.bases.len();
-        let (mut waiting, mut depth) = (vec![0usize; count], vec![0usize; count]);
-        let mut users: Vec<Vec<u32>> = vec![Vec::new(); count];
-        for (at, open) in waiting.iter_mut().enumerate() {
-            for part in self.parts(at) {
-                *open += 1;
-                if let Some(users) = users.get_mut(part) {
-                    users.push(at as u32);
-                }
-            }
-        }
-        let mut sequence: Vec<usize> = (0..count).filter(|&at| waiting.get(at) == Some(&0)).collect();
-        let mut next = 0;
-        while let Some(&at) = sequence.get(next) {
-            next += 1;
-            let layers = depth.get(at).map_or(1, |depth| depth + 1);
-            for &user in users.get(at).into_iter().flatten() {
-                let user = user as usize;
-                if let (Some(depth), Some(waiting)) = (depth.get_mut(user), waiting.get_mut(user)) {
-                    *depth = layers.max(*depth);
-                    *waiting -= 1;
-                    if *waiting == 0 {
-                        sequence.push(user);
-                    }
-                }
-            }
-        }
-        let over = |(&waiting, &depth): (&usize, &usize)| waiting > 0 || depth > limits::MAX_XML_DEPTH;
-        self.endless = waiting.iter().zip(&depth).map(over).collect();
-        sequence.extend((0..count).filter(|&at| waiting.get(at).is_some_and(|&waiting| waiting > 0)));
-        sequence
-    }
-
-    fn is_endless(&self, at: usize) -> bool {
-        self.endless.get(at).copied().unwrap_or(false)
-    }
 }
 
 impl<'a> Types<'a> {
@@ -141,7 +99,8 @@ impl<'a> Types<'a> {
             ..TypeDef::new(ty.name.compact(), Shape::Alias(opaque), ty.bits)
         };
         types.defs = raw.iter().map(empty).collect();
-        for at in types.links.order() {
+        types.order = Order::new(raw.len(), |at| types.links.parts(at));
+        for at in std::mem::take(&mut types.order.sequence) {
             let Some(ty) = raw.get(at) else { continue };
             let (shape, bits) = types.shape(reader, at, ty);
             if let Some(meaning) = types.meaning.get_mut(at) {
@@ -329,7 +288,7 @@ impl<'a> Types<'a> {
     /// Returns the IR type of the data type at `part`, to which the data type at `at` refers. A circular or too deeply
     /// nested reference becomes raw bytes.
     fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
-        if self.links.is_endless(at) && self.links.is_endless(part as usize) {
+        if self.order.is_endless(at) && self.order.is_endless(part as usize) {
             let message = format!("the data type `{}` contains itself or is nested too deeply", brief(&given.text));
             reader.report(&codes::ENDLESS_TYPE, given.span, message, "kept as raw bytes");
             return Type::Opaque(None);

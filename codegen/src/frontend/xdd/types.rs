@@ -4,12 +4,13 @@ use super::application::{dangling, Application};
 use super::data_type::{DataTypeKind, TypeRef};
 use super::reader::Reader;
 use crate::diagnostics::codes;
+use crate::frontend::xml::Order;
 use crate::ir::{Field, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 
 /// Converts the data types of the application process to types of the device, in the same order.
 pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Application<'a>) -> Vec<TypeDef> {
-    let order = Order::new(application);
+    let order = Order::new(application.types.len(), |at| parts(application, at));
     let mut bits: Vec<Option<u32>> = vec![None; application.types.len()];
     let mut shapes: Vec<Option<Shape>> = vec![None; application.types.len()];
     for &at in &order.sequence {
@@ -25,43 +26,6 @@ pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Applicati
         ..TypeDef::new(raw.name, shape.unwrap_or(Shape::Alias(Type::Opaque(None))), bits)
     })
     .collect()
-}
-
-/// Order in which data types are lowered: each type comes after the types that it refers to. Types for which no such
-/// order exists come last.
-struct Order {
-    sequence: Vec<usize>,
-    /// For each data type, whether it contains itself, is nested too deeply, or refers to such a type.
-    endless: Vec<bool>,
-}
-
-impl Order {
-    fn new(application: &Application<'_>) -> Self {
-        let count = application.types.len();
-        let mut waiting = vec![0usize; count];
-        let mut users: Vec<Vec<usize>> = vec![Vec::new(); count];
-        for (at, open) in waiting.iter_mut().enumerate() {
-            for part in parts(application, at) {
-                *open += 1;
-                users[part].push(at);
-            }
-        }
-        let mut sequence: Vec<usize> = (0..count).filter(|&at| waiting[at] == 0).collect();
-        let (mut depth, mut next) = (vec![0usize; count], 0);
-        while let Some(&at) = sequence.get(next) {
-            next += 1;
-            for &user in &users[at] {
-                depth[user] = depth[user].max(depth[at] + 1);
-                waiting[user] -= 1;
-                if waiting[user] == 0 {
-                    sequence.push(user);
-                }
-            }
-        }
-        let endless = (0..count).map(|at| waiting[at] > 0 || depth[at] > limits::MAX_XML_DEPTH).collect();
-        sequence.extend((0..count).filter(|&at| waiting[at] > 0));
-        Order { sequence, endless }
-    }
 }
 
 /// Returns the positions of the data types that the data type at `at` refers to.
@@ -131,7 +95,7 @@ impl<'t, 'a> Types<'t, 'a, '_> {
         let Some(ty) = ty else { return Type::Opaque(None) };
         let resolved = self.application.resolve(self.reader, ty);
         if let Type::Named(TypeId(part)) = resolved {
-            if self.order.endless[self.at] && self.order.endless[part as usize] {
+            if self.order.is_endless(self.at) && self.order.is_endless(part as usize) {
                 let message = "the data type contains itself or is nested too deeply";
                 self.reader.report(&codes::XDD_VALUE, ty.span(), message, "kept as raw bytes");
                 return Type::Opaque(None);

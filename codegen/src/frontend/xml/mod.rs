@@ -18,10 +18,13 @@
 //! | `unknown` | elements and attributes unknown to the standard or the IR |
 //! | `given` | a text with its span |
 //! | `names` | a text in several languages |
+//! | `order` | order in which data types are converted |
 
 mod content;
 mod given;
 mod names;
+#[cfg(any(feature = "esi", feature = "xdd"))]
+mod order;
 mod reader;
 #[cfg(test)]
 mod tests;
@@ -29,4 +32,6 @@ mod unknown;
 
 pub use given::Given;
 pub use names::{Language, Names};
+#[cfg(any(feature = "esi", feature = "xdd"))]
+pub use order::Order;
 pub use reader::{Attributes, Format, Read, Reader};
