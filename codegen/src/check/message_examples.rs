@@ -8,6 +8,7 @@ use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::owner::{fixed, reserved, Owner};
 use crate::ir::{BitMeaning, FieldId, FieldRef, Item, Message, MessageField, MessageValue, Shape, Type};
 use crate::number::{hex, hex8};
+use crate::resolve::messages::fixed_bits;
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
@@ -81,19 +82,11 @@ impl<'a> Frame<'a> {
     /// Returns the length of a field in bits, or `None` if the length is not fixed.
     fn bits(&self, field: &MessageField) -> Option<usize> {
         match field {
-            MessageField::Constant(bytes) => Some(bytes.len() * 8),
-            MessageField::Value(value) => self.owner.basic(value.item.ty).bits().map(|bits| bits as usize),
             MessageField::Echo { field, bytes: None } => {
                 let (fields, _) = self.request?;
                 self.bits(fields.get(field.id?.0 as usize)?)
             }
-            MessageField::Echo { bytes: Some((first, last)), .. } => Some((usize::from(last - first) + 1) * 8),
-            MessageField::ItemCode { bits, .. } => Some(usize::from(*bits)),
-            MessageField::FixedBits { bits, .. } => Some(usize::from(*bits)),
-            MessageField::Copy { first, last } => Some((usize::from(last.saturating_sub(*first)) + 1) * 8),
-            MessageField::Padding(bytes) => Some(usize::from(*bytes) * 8),
-            MessageField::ItemValue { .. } | MessageField::ItemPadding { .. } => None,
-            MessageField::Repeat { .. } | MessageField::Rest => None,
+            field => fixed_bits(self.owner, field).map(|bits| bits as usize),
         }
     }
 

@@ -1,8 +1,8 @@
 //! Visits the references that can refer to items.
 
 use crate::ir::{
-    Binding, CompactString, Completion, Condition, Device, ElementRef, Group, Item, ItemRef, MessageField, Quantity,
-    Scale, Shape, Step, Storage, TypeDef, WindowSide,
+    Binding, CompactString, Completion, Condition, Device, ElementRef, Group, Item, ItemRef, Message, MessageField,
+    Quantity, Scale, Shape, Step, Storage, TypeDef, WindowSide,
 };
 
 /// A reference to an item, or a reference whose target can be an item or a message.
@@ -37,8 +37,11 @@ pub(super) fn for_each(device: &mut Device, visit: Visit<'_>) {
             visit(item.into());
         }
         message.accepted_when.iter_mut().for_each(|condition| visit((&mut condition.item).into()));
-        of_fields(&mut message.request, visit);
-        of_fields(&mut message.reply, visit);
+        for_each_field(message, &mut |field| {
+            if let MessageField::Value(value) = field {
+                of_item(&mut value.item, visit);
+            }
+        });
     }
     for machine in &mut device.machines {
         visit((&mut machine.status_item).into());
@@ -86,14 +89,18 @@ fn of_item(item: &mut Item, visit: Visit<'_>) {
     }
 }
 
-fn of_fields(fields: &mut [MessageField], visit: Visit<'_>) {
-    for field in fields {
-        match field {
-            MessageField::Value(value) => of_item(&mut value.item, visit),
-            MessageField::Repeat { fields, .. } => of_fields(fields, visit),
-            _ => {}
+/// Visits the fields of a request and its reply, including repeated fields.
+pub(super) fn for_each_field(message: &mut Message, visit: &mut dyn FnMut(&mut MessageField)) {
+    fn of_fields(fields: &mut [MessageField], visit: &mut dyn FnMut(&mut MessageField)) {
+        for field in fields {
+            visit(field);
+            if let MessageField::Repeat { fields, .. } = field {
+                of_fields(fields, visit);
+            }
         }
     }
+    of_fields(&mut message.request, visit);
+    of_fields(&mut message.reply, visit);
 }
 
 /// Visits the quantities of all items and of all values in messages.
@@ -102,18 +109,11 @@ pub(super) fn for_each_quantity(device: &mut Device, visit: &mut dyn FnMut(&mut 
         item.quantity.as_deref_mut().into_iter().for_each(&mut *visit);
     }
     for message in &mut device.messages {
-        quantities_of_fields(&mut message.request, visit);
-        quantities_of_fields(&mut message.reply, visit);
-    }
-}
-
-fn quantities_of_fields(fields: &mut [MessageField], visit: &mut dyn FnMut(&mut Quantity)) {
-    for field in fields {
-        match field {
-            MessageField::Value(value) => value.item.quantity.as_deref_mut().into_iter().for_each(&mut *visit),
-            MessageField::Repeat { fields, .. } => quantities_of_fields(fields, visit),
-            _ => {}
-        }
+        for_each_field(message, &mut |field| {
+            if let MessageField::Value(value) = field {
+                value.item.quantity.as_deref_mut().into_iter().for_each(&mut *visit);
+            }
+        });
     }
 }
 

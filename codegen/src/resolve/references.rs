@@ -1,6 +1,6 @@
 //! Resolves references: sets the id of each reference to the position of the element with its name.
 
-use super::mentions::{for_each, for_each_quantity, of_items_and_types, window_sides, Mention};
+use super::mentions::{for_each, for_each_field, for_each_quantity, of_items_and_types, window_sides, Mention};
 use crate::collections::HashMap;
 use crate::ir::owner::{Index, Owner};
 use crate::ir::{
@@ -213,20 +213,12 @@ fn parameter_spaces(device: &mut Device) {
         }
     }
     for message in &mut device.messages {
-        spaces_of_fields(&mut message.request, &positions);
-        spaces_of_fields(&mut message.reply, &positions);
-    }
-}
-
-fn spaces_of_fields(fields: &mut [MessageField], positions: &Positions) {
-    for field in fields {
-        match field {
+        for_each_field(message, &mut |field| match field {
             MessageField::ItemCode { space, .. }
             | MessageField::ItemValue { space }
             | MessageField::ItemPadding { space } => positions.resolve(space, SpaceId),
-            MessageField::Repeat { fields, .. } => spaces_of_fields(fields, positions),
             _ => {}
-        }
+        });
     }
 }
 

@@ -10,11 +10,13 @@ use super::tree::Reader;
 use super::{conditions, framing, notation, types, value, Table};
 use crate::collections::HashSet;
 use crate::diagnostics::codes;
+use crate::ir::owner::Owner;
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
     MessageField, MessageValue, ParameterSpace, Type, Value,
 };
 use crate::limits;
+use crate::resolve::messages::fixed_bits;
 use crate::text::brief;
 
 /// Maximum depth of nested repeated fields.
@@ -344,23 +346,11 @@ impl Fields<'_, '_, '_> {
                     return;
                 }
             }
-            match self.bits(field).and_then(|length| bits.checked_add(length)) {
+            let owner = Owner::of_types(&self.rows.definitions.types);
+            match fixed_bits(owner, field).and_then(|length| bits.checked_add(length)) {
                 Some(all) => bits = all,
                 None => return,
             }
-        }
-    }
-
-    /// Returns the length of a field in bits, or `None` if the length is not fixed.
-    fn bits(&self, field: &MessageField) -> Option<u32> {
-        match field {
-            MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
-            MessageField::FixedBits { bits, .. } | MessageField::ItemCode { bits, .. } => Some(u32::from(*bits)),
-            MessageField::Value(value) => self.rows.definitions.underlying(value.item.ty).bits(),
-            MessageField::Echo { bytes: Some((first, last)), .. } => Some((u32::from(last - first) + 1) * 8),
-            MessageField::Copy { first, last } => Some((u32::from(last - first) + 1) * 8),
-            MessageField::Padding(bytes) => Some(u32::from(*bytes) * 8),
-            _ => None,
         }
     }
 

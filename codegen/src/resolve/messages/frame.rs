@@ -55,6 +55,19 @@ impl Frame {
     }
 }
 
+/// Returns the length of a field in bits. Returns `None` if the length is not fixed, or is that of a field of the request.
+pub(crate) fn fixed_bits(owner: Owner<'_>, field: &MessageField) -> Option<u32> {
+    match field {
+        MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
+        MessageField::FixedBits { bits, .. } | MessageField::ItemCode { bits, .. } => Some(u32::from(*bits)),
+        MessageField::Value(value) => owner.basic(value.item.ty).bits(),
+        MessageField::Echo { bytes: Some((first, last)), .. } => Some((u32::from(last.saturating_sub(*first)) + 1) * 8),
+        MessageField::Copy { first, last } => Some((u32::from(last.saturating_sub(*first)) + 1) * 8),
+        MessageField::Padding(bytes) => Some(u32::from(*bytes) * 8),
+        _ => None,
+    }
+}
+
 struct Reader<'d, 'f> {
     device: &'d Device,
     owner: Owner<'d>,
@@ -80,27 +93,10 @@ impl Reader<'_, '_> {
                 }
                 self.known(bytes.len() * 8);
             }
-            MessageField::FixedBits { bits, .. } => self.known(usize::from(*bits)),
-            MessageField::Value(value) => match self.owner.basic(value.item.ty).bits() {
-                Some(bits) => self.known(bits as usize),
-                None => self.open(0),
-            },
-            MessageField::Echo { bytes: Some((first, last)), .. } => {
-                self.known((usize::from(*last) - usize::from(*first.min(last)) + 1) * 8);
-            }
-            MessageField::Copy { first, last } => {
-                self.known((usize::from(*last) - usize::from(*first.min(last)) + 1) * 8);
-            }
-            MessageField::Echo { bytes: None, field } => match field.id.and_then(|id| self.echoed(id)) {
-                Some(bits) => self.known(bits as usize),
-                None => self.open(0),
-            },
-            MessageField::ItemCode { bits, .. } => self.known(usize::from(*bits)),
             MessageField::ItemValue { space } | MessageField::ItemPadding { space } => {
                 let bits = self.shortest_value(space);
                 self.open(bits);
             }
-            MessageField::Padding(bytes) => self.known(usize::from(*bytes) * 8),
             MessageField::Repeat { max, fields, .. } => {
                 let before = self.frame.min_bits;
                 let outer = self.times;
@@ -111,7 +107,14 @@ impl Reader<'_, '_> {
                 self.frame.min_bits = before;
                 self.times = outer;
             }
-            MessageField::Rest => self.open(0),
+            MessageField::Echo { bytes: None, field } => match field.id.and_then(|id| self.echoed(id)) {
+                Some(bits) => self.known(bits as usize),
+                None => self.open(0),
+            },
+            field => match fixed_bits(self.owner, field) {
+                Some(bits) => self.known(bits as usize),
+                None => self.open(0),
+            },
         }
     }
 

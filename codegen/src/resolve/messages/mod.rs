@@ -14,7 +14,7 @@ mod shape;
 mod shaper;
 mod step;
 
-pub(crate) use frame::Frame;
+pub(crate) use frame::{fixed_bits, Frame};
 pub(crate) use parameters::{carrier_problems, carriers, numbered, LONGEST};
 pub(crate) use shape::{is_reported_elsewhere, problem, refusal, shapes, Problem, Shaped};
 pub(crate) use step::{tail, Step};
