@@ -1,13 +1,10 @@
 //! Reads device access points: the settings of a device, and the modules and submodules that can be plugged into the
 //! device.
 
-use compact_str::format_compact;
-
 use super::links::{ElementKind, Owner};
-use super::module_info::{named_graphic, Info};
 use super::reader::Reader;
 use super::submodule::Holder;
-use crate::frontend::xml::{Attributes, Given, Read};
+use crate::frontend::xml::{Given, Read};
 use crate::ir::{
     Catalog, Device, Group, GroupKind, IoLengths, Numbers, ObjectCode, ProfinetSettings, Record, Slot, Submodule,
     VendorBlock,
@@ -42,7 +39,10 @@ impl<'a> Reader<'a, '_> {
             }
         }
         match info {
-            Some(info) => info.of_device(&mut device, &mut settings.attributes),
+            Some(info) => {
+                let identity = &mut device.identity;
+                info.add_to(&mut device.name, &mut device.documentation, identity, &mut settings.attributes);
+            }
             None => self.missing(parent, "ModuleInfo", "the name is left empty"),
         }
         if settings.startup_modes.is_empty() {
@@ -108,11 +108,7 @@ impl<'a> Reader<'a, '_> {
             }
             "SlotList" => self.slot_list(tag, device),
             "ARVendorBlock" => self.vendor_blocks(tag, settings),
-            "Graphics" => {
-                let graphics = self.graphics(tag)?;
-                settings.attributes.extend(graphics.into_iter().map(named_graphic));
-                Ok(())
-            }
+            "Graphics" => self.keep_graphics(tag, &mut settings.attributes),
             "ApplicationRelations" => {
                 // In GSDML V1.0 and V2.0, `ApplicationRelations` is a child of the device access point, not of the
                 // interface.
@@ -143,16 +139,13 @@ impl<'a> Reader<'a, '_> {
     }
 
     fn io_config_data(&mut self, tag: &Tag<'a>, settings: &mut ProfinetSettings) -> Read<()> {
-        let mut others = Attributes::new();
         let names = ["MaxInputLength", "MaxOutputLength", "MaxDataLength"];
-        let [input, output, data] = self.attributes_and_others(tag, names, &mut others)?;
+        let [input, output, data] = self.attributes_and_prefixed(tag, names, &mut settings.attributes)?;
         settings.max_lengths = IoLengths {
             input: self.unsigned16(&input, "data length"),
             output: self.unsigned16(&output, "data length"),
             data: self.unsigned16(&data, "data length"),
         };
-        let named = others.into_iter().map(|(key, value)| (format_compact!("IOConfigData@{key}"), value));
-        settings.attributes.extend(named);
         self.no_children(tag)
     }
 
@@ -186,18 +179,5 @@ impl<'a> Reader<'a, '_> {
             settings.vendor_blocks.push(VendorBlock { api, identifier, record: group, menus });
             Ok(())
         })
-    }
-}
-
-impl Info<'_> {
-    /// Adds the contents of a `ModuleInfo` element to a device access point.
-    fn of_device(self, device: &mut Device, attributes: &mut Attributes) {
-        device.name = self.name;
-        device.documentation = self.documentation;
-        device.identity.vendor_name = self.vendor.compact();
-        device.identity.order_code = self.order.compact();
-        attributes.extend(self.hardware.attribute("HardwareRelease"));
-        attributes.extend(self.software.attribute("SoftwareRelease"));
-        attributes.extend(self.attributes);
     }
 }

@@ -5,9 +5,7 @@ use std::fmt::Write;
 use super::location::Location;
 use super::reader::Reader;
 use crate::frontend::xml::Read;
-use crate::ir::{
-    Catalog, CodeRow, CodeTable, CompactString, Documentation, Type, UnitDiagnosis, UnitDiagnosisField, Value,
-};
+use crate::ir::{Catalog, CodeRow, CodeTable, Type, UnitDiagnosis, UnitDiagnosisField, Value};
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
@@ -48,17 +46,6 @@ struct Rows {
     extended: Vec<CodeRow>,
 }
 
-/// Contents of an element that describes a code.
-#[derive(Default)]
-struct Code {
-    code: Option<i128>,
-    state: CompactString,
-    api: u32,
-    name: CompactString,
-    documentation: Option<Box<Documentation>>,
-    add_value: String,
-}
-
 impl<'a> Reader<'a, '_> {
     /// Reads a `ChannelDiagList` element.
     pub fn channel_diagnosis(&mut self, list: &Tag<'a>, catalog: &mut Catalog) -> Read<()> {
@@ -97,37 +84,38 @@ impl<'a> Reader<'a, '_> {
             given = other;
         }
         self.require(tag, &given, list.code, "left out");
-        let mut code = Code {
-            code: self.unsigned16(&given, "code").map(i128::from),
-            state: if state.is_missing() { "D".into() } else { state.compact() },
-            // An extended code belongs to the API of its parent unless it declares another API.
-            api: self.unsigned(&api, u32::MAX, "API number").or(parent.map(|(_, api)| api)).unwrap_or(0),
-            ..Code::default()
-        };
+        let code = self.unsigned16(&given, "code").map(i128::from);
+        let state = Value::Text(if state.is_missing() { "D".into() } else { state.compact() });
+        // An extended code belongs to the API of its parent unless it declares another API.
+        let api = self.unsigned(&api, u32::MAX, "API number").or(parent.map(|(_, api)| api)).unwrap_or(0);
+        let mut row = CodeRow { code: code.unwrap_or_default(), ..CodeRow::default() };
+        let mut add_value = String::new();
         while let Some(child) = self.child(tag)? {
             match child.name {
-                "Name" => code.name = self.text_reference(&child)?,
-                "Help" => code.documentation = self.documentation(&child)?,
+                "Name" => row.name = self.text_reference(&child)?,
+                "Help" => row.documentation = self.documentation(&child)?,
                 "ExtChannelDiagList" | "ExtChannelProcessAlarmList" => {
                     while let Some(inner) = self.child(&child)? {
-                        match code.code {
+                        match code {
                             Some(number) if is_code(inner.name) && parent.is_none() => {
-                                self.code(&inner, list, Some((number, code.api)), rows)?;
+                                self.code(&inner, list, Some((number, api)), rows)?;
                             }
                             _ => self.unknown(&inner)?,
                         }
                     }
                 }
-                "ExtChannelAddValue" | "ProcessAlarmReasonAddValue" => {
-                    self.add_values(&child, &mut code.add_value)?;
-                }
+                "ExtChannelAddValue" | "ProcessAlarmReasonAddValue" => self.add_values(&child, &mut add_value)?,
                 _ => self.unknown(&child)?,
             }
         }
-        if let Some(row) = code.row(parent.map(|(code, _)| code)) {
-            let rows = if parent.is_some() { &mut rows.extended } else { &mut rows.codes };
-            rows.push(row);
-        }
+        let api = Value::Int(api.into());
+        let (cells, rows) = match parent {
+            None => (vec![state, api], &mut rows.codes),
+            Some((parent, _)) => {
+                (vec![Value::Int(parent), state, api, Value::Text(add_value.into())], &mut rows.extended)
+            }
+        };
+        rows.extend(code.map(|_| CodeRow { cells, ..row }));
         Ok(())
     }
 
@@ -234,19 +222,6 @@ impl<'a> Reader<'a, '_> {
         };
         self.no_children(tag)?;
         Ok(UnitDiagnosisField { name, names: Default::default(), bit_offset, bits, ty, values, default })
-    }
-}
-
-impl Code {
-    fn row(self, parent_code: Option<i128>) -> Option<CodeRow> {
-        let mut row = CodeRow { code: self.code?, ..CodeRow::default() };
-        (row.name, row.documentation) = (self.name, self.documentation);
-        let (state, api) = (Value::Text(self.state), Value::Int(self.api.into()));
-        row.cells = match parent_code {
-            None => vec![state, api],
-            Some(parent) => vec![Value::Int(parent), state, api, Value::Text(self.add_value.into())],
-        };
-        Some(row)
     }
 }
 

@@ -70,7 +70,7 @@ impl Header {
         for device in &mut catalog.devices {
             let identity = &mut device.identity;
             (identity.vendor_id, identity.product_code) = (self.vendor_id, self.device_id);
-            if weight > MAX_FREE_TEXTS && !resolver.spend_at(weight, device.origin.span) {
+            if weight > MAX_FREE_TEXTS && !resolver.spend(weight, device.origin.span) {
                 continue;
             }
             let of_device = std::mem::replace(&mut identity.vendor_name, self.vendor_name.clone());

@@ -71,10 +71,9 @@ impl<'a> Reader<'a, '_> {
             let message = format!("`{}` is not a data type of GSDML", brief(&given.text));
             let diagnostic = codes::UNKNOWN_GSDML_TYPE.at(given.span, message);
             let diagnostic = diagnostic.label("kept as raw bytes of the declared length");
-            self.diagnostics.push(match given.text.as_ref() {
-                "Float" | "Real" | "REAL" => diagnostic.help("write `Float32` for a 4-byte number"),
-                _ => diagnostic,
-            });
+            let is_real = matches!(given.text.as_ref(), "Float" | "Real" | "REAL");
+            let help = "write `Float32` for a 4-byte number";
+            self.diagnostics.push(if is_real { diagnostic.help(help) } else { diagnostic });
         }
         similar.map(|(_, ty)| ty)
     }

@@ -1,7 +1,6 @@
 //! Reads the modules of a file.
 
 use super::links::{ElementKind, Owner};
-use super::module_info::{named_graphic, Info};
 use super::reader::Reader;
 use super::submodule::Holder;
 use crate::frontend::xml::{Attributes, Read};
@@ -39,32 +38,20 @@ impl<'a> Reader<'a, '_> {
                 }
                 "UseableSubmodules" => self.useable_submodules(&tag, Owner::Module(position))?,
                 "SubslotList" => module.subslot_names = self.subslot_list(&tag)?,
-                "Graphics" => {
-                    let graphics = self.graphics(&tag)?;
-                    attributes.extend(graphics.into_iter().map(named_graphic));
-                }
+                "Graphics" => self.keep_graphics(&tag, &mut attributes)?,
                 _ => self.unknown(&tag)?,
             }
         }
         match info {
-            Some(info) => info.of_module(&mut module, &mut attributes),
+            Some(mut info) => {
+                module.version = std::mem::take(&mut info.software).compact();
+                module.revision = std::mem::take(&mut info.hardware).compact();
+                info.add_to(&mut module.name, &mut module.documentation, &mut module.identity, &mut attributes);
+            }
             None => self.missing(parent, "ModuleInfo", "the name is left empty"),
         }
         module.extensions = self.extensions_since(start);
         module.attributes = attributes;
         Ok(module)
-    }
-}
-
-impl Info<'_> {
-    /// Adds the contents of a `ModuleInfo` element to a module.
-    fn of_module(self, module: &mut Module, attributes: &mut Attributes) {
-        module.name = self.name;
-        module.documentation = self.documentation;
-        module.identity.vendor_name = self.vendor.compact();
-        module.identity.order_code = self.order.compact();
-        module.version = self.software.compact();
-        module.revision = self.hardware.compact();
-        attributes.extend(self.attributes);
     }
 }

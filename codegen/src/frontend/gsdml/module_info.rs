@@ -5,7 +5,7 @@ use compact_str::format_compact;
 use super::links::ElementKind;
 use super::reader::Reader;
 use crate::frontend::xml::{Attributes, Given, Read};
-use crate::ir::{CompactString, Documentation};
+use crate::ir::{CompactString, Documentation, Identity};
 use crate::syntax::xml::Tag;
 
 /// Contents of a `ModuleInfo` element.
@@ -67,9 +67,31 @@ impl<'a> Reader<'a, '_> {
         })?;
         Ok(graphics)
     }
+
+    /// Reads a `Graphics` element of an element that has no list of graphics in the IR.
+    pub fn keep_graphics(&mut self, list: &Tag<'a>, attributes: &mut Attributes) -> Read<()> {
+        let named = |(kind, target)| (format_compact!("GraphicItemRef@{kind}"), target);
+        attributes.extend(self.graphics(list)?.into_iter().map(named));
+        Ok(())
+    }
 }
 
-/// Converts a graphic to an attribute, for elements that have no list of graphics in the IR.
-pub(super) fn named_graphic(graphic: (CompactString, CompactString)) -> (CompactString, CompactString) {
-    (format_compact!("GraphicItemRef@{}", graphic.0), graphic.1)
+impl Info<'_> {
+    /// Adds the contents of a `ModuleInfo` element to a device access point, module or submodule.
+    pub fn add_to(
+        self,
+        name: &mut CompactString,
+        documentation: &mut Option<Box<Documentation>>,
+        identity: &mut Identity,
+        attributes: &mut Attributes,
+    ) {
+        if !self.name.is_empty() {
+            *name = self.name;
+        }
+        *documentation = self.documentation;
+        (identity.vendor_name, identity.order_code) = (self.vendor.compact(), self.order.compact());
+        attributes.extend(self.hardware.attribute("HardwareRelease"));
+        attributes.extend(self.software.attribute("SoftwareRelease"));
+        attributes.extend(self.attributes);
+    }
 }

@@ -1,10 +1,12 @@
 //! State of the GSDML reader, and functions for identifiers, text references and required attributes.
 
+use compact_str::format_compact;
+
 use super::links::{ElementKind, Links};
 use super::text_references::TextReferences;
 use super::types::Types;
 use crate::diagnostics::{codes, Code};
-use crate::frontend::xml::{self, Given, Read};
+use crate::frontend::xml::{self, Attributes, Given, Read};
 use crate::ir::{CompactString, Documentation, Item};
 use crate::syntax::xml::Tag;
 use crate::text::brief;
@@ -49,6 +51,20 @@ impl<'a> Reader<'a, '_> {
     pub fn missing(&mut self, tag: &Tag<'_>, what: &str, label: impl Into<String>) {
         let message = format!("<{}> has no {what}", brief(tag.name));
         self.report(&codes::GSDML_MISSING, tag.name_span(), message, label);
+    }
+
+    /// Reads attributes of `tag`. Adds all other attributes to `others`, with the element's name as a prefix:
+    /// `TimingProperties@PreferredSendClock`.
+    pub fn attributes_and_prefixed<const N: usize>(
+        &mut self,
+        tag: &Tag<'a>,
+        names: [&'static str; N],
+        others: &mut Attributes,
+    ) -> Read<[Given<'a>; N]> {
+        let mut found = Attributes::new();
+        let given = self.attributes_and_others(tag, names, &mut found)?;
+        others.extend(found.into_iter().map(|(key, value)| (format_compact!("{}@{key}", tag.name), value)));
+        Ok(given)
     }
 
     /// Returns whether a required attribute is present. Reports a missing attribute.

@@ -10,8 +10,7 @@ use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Given;
 use crate::ir::{
-    Catalog, Device, Documentation, Group, IoData, LocalText, Menu, Module, Shape, Submodule, SubslotName, Texts,
-    TypeDef, UnitDiagnosis,
+    Catalog, Device, Documentation, Group, LocalText, Module, Shape, Submodule, Texts, TypeDef, UnitDiagnosis,
 };
 use crate::limits;
 use crate::source::Span;
@@ -37,76 +36,48 @@ pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
 fn device(device: &mut Device, resolver: &mut Resolver<'_, '_>) {
     resolver.name(&mut device.name, &mut device.names);
     resolver.documentation(&mut device.documentation);
-    for slot in &mut device.slots {
-        resolver.name(&mut slot.name, &mut slot.names);
-    }
+    resolver.names(device.slots.iter_mut().map(|slot| (&mut slot.name, &mut slot.names)));
     let Some(settings) = &mut device.profinet else { return };
-    subslots(&mut settings.subslot_names, resolver);
+    resolver.names(settings.subslot_names.iter_mut().map(|subslot| (&mut subslot.name, &mut subslot.names)));
     for block in &mut settings.vendor_blocks {
         record(&mut block.record, resolver);
-        menus(&mut block.menus, resolver);
+        resolver.names(block.menus.iter_mut().map(|menu| (&mut menu.name, &mut menu.names)));
     }
 }
 
 fn module(module: &mut Module, resolver: &mut Resolver<'_, '_>) {
     resolver.name(&mut module.name, &mut module.names);
     resolver.documentation(&mut module.documentation);
-    subslots(&mut module.subslot_names, resolver);
-}
-
-fn subslots(names: &mut [SubslotName], resolver: &mut Resolver<'_, '_>) {
-    for subslot in names {
-        resolver.name(&mut subslot.name, &mut subslot.names);
-    }
+    resolver.names(module.subslot_names.iter_mut().map(|subslot| (&mut subslot.name, &mut subslot.names)));
 }
 
 fn submodule(submodule: &mut Submodule, resolver: &mut Resolver<'_, '_>) {
     resolver.name(&mut submodule.name, &mut submodule.names);
     resolver.documentation(&mut submodule.documentation);
     for data in [&mut submodule.input, &mut submodule.output].into_iter().flatten() {
-        io_data(data, resolver);
+        resolver.names(data.image.fields.iter_mut().map(|field| (&mut field.name, &mut field.names)));
+        resolver.names(data.items.iter_mut().map(|item| (&mut item.name, &mut item.names)));
     }
     submodule.records.iter_mut().for_each(|group| record(group, resolver));
-    menus(&mut submodule.menus, resolver);
-}
-
-fn io_data(data: &mut IoData, resolver: &mut Resolver<'_, '_>) {
-    for field in &mut data.image.fields {
-        resolver.name(&mut field.name, &mut field.names);
-    }
-    for item in &mut data.items {
-        resolver.name(&mut item.name, &mut item.names);
-    }
+    resolver.names(submodule.menus.iter_mut().map(|menu| (&mut menu.name, &mut menu.names)));
 }
 
 fn record(group: &mut Group, resolver: &mut Resolver<'_, '_>) {
     resolver.name(&mut group.name, &mut group.names);
-    for item in &mut group.items {
-        resolver.name(&mut item.name, &mut item.names);
-    }
-}
-
-fn menus(menus: &mut [Menu], resolver: &mut Resolver<'_, '_>) {
-    for menu in menus {
-        resolver.name(&mut menu.name, &mut menu.names);
-    }
+    resolver.names(group.items.iter_mut().map(|item| (&mut item.name, &mut item.names)));
 }
 
 fn type_def(def: &mut TypeDef, resolver: &mut Resolver<'_, '_>) {
     resolver.documentation(&mut def.documentation);
     if let Shape::Enumeration { values, .. } = &mut def.shape {
-        for value in values {
-            resolver.name(&mut value.name, &mut value.names);
-        }
+        resolver.names(values.iter_mut().map(|value| (&mut value.name, &mut value.names)));
     }
 }
 
 fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>) {
     resolver.name(&mut diagnosis.name, &mut diagnosis.names);
     resolver.documentation(&mut diagnosis.documentation);
-    for field in &mut diagnosis.fields {
-        resolver.name(&mut field.name, &mut field.names);
-    }
+    resolver.names(diagnosis.fields.iter_mut().map(|field| (&mut field.name, &mut field.names)));
 }
 
 /// Replaces placeholders with the texts to which they refer.
@@ -157,7 +128,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
             _ => self.with_suffix(&given, suffix.into()),
         };
         if let Some((text, texts)) = found {
-            if self.spend(text.len(), &given) {
+            if self.spend(text.len(), given.span) {
                 (*name, *names) = (text, texts);
                 return;
             }
@@ -185,15 +156,14 @@ impl<'a, 'd> Resolver<'a, 'd> {
         Some(found)
     }
 
-    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small. Without the
-    /// budget, many references could multiply a long text.
-    fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
-        self.spend_at(length, given.span)
+    /// Replaces the placeholders in several names.
+    fn names<'n>(&mut self, names: impl Iterator<Item = (&'n mut CompactString, &'n mut Texts)>) {
+        names.for_each(|(name, names)| self.name(name, names));
     }
 
-    /// Subtracts `length` bytes from the budget for copied texts. Returns false if the budget is too small. Only the
-    /// first excess of the budget is reported.
-    pub fn spend_at(&mut self, length: usize, span: Span) -> bool {
+    /// Subtracts `length` bytes from the budget for copied texts, without which many references could multiply a long
+    /// text. Returns false if the budget is too small. Only the first excess of the budget is reported.
+    pub fn spend(&mut self, length: usize, span: Span) -> bool {
         if let Some(rest) = self.budget.checked_sub(length) {
             self.budget = rest;
             return true;
@@ -223,7 +193,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
             // The translations are further copies, which the budget must allow.
             let given = mark.parse().ok().and_then(|at: usize| self.references.get(at)).cloned();
             let length = texts.iter().map(|local| local.text.len() + std::mem::size_of::<LocalText>()).sum();
-            if given.is_some_and(|given| self.spend(length, &given)) {
+            if given.is_some_and(|given| self.spend(length, given.span)) {
                 descriptions.extend(texts.iter().cloned());
             }
         }

@@ -1,12 +1,10 @@
 //! Reads submodules of all kinds: virtual and pluggable submodules, interfaces and ports.
 
-use compact_str::format_compact;
-
 use super::links::{ElementKind, Owner};
 use super::module_info::Info;
 use super::number::tokens;
 use super::reader::Reader;
-use crate::frontend::xml::{Attributes, Given, Read};
+use crate::frontend::xml::{Given, Read};
 use crate::ir::{
     Numbers, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName,
 };
@@ -112,7 +110,8 @@ impl<'a> Reader<'a, '_> {
         if !named {
             self.missing(parent, "name", "the name is left empty");
         }
-        info.of_submodule(&mut submodule);
+        let Submodule { name, documentation, identity, attributes, .. } = &mut submodule;
+        info.add_to(name, documentation, identity, attributes);
         submodule.records.shrink_to_fit();
         submodule.extensions = self.extensions_since(start);
         let mut fixed = self.numbers(&fixed);
@@ -134,9 +133,8 @@ impl<'a> Reader<'a, '_> {
         let Some(settings) = settings.filter(|settings| settings.startup_modes.is_empty()) else {
             return self.keep_as_attributes(parent, &mut submodule.attributes);
         };
-        let mut others = Attributes::new();
-        let [startup, relations] = self.attributes_and_others(parent, ["StartupMode", "NumberOfAR"], &mut others)?;
-        add("ApplicationRelations", others, submodule);
+        let names = ["StartupMode", "NumberOfAR"];
+        let [startup, relations] = self.attributes_and_prefixed(parent, names, &mut submodule.attributes)?;
         let startup = if startup.is_missing() { "Legacy" } else { startup.text.as_ref() };
         settings.startup_modes = tokens(startup).map(Into::into).collect();
         settings.relations = self.unsigned16(&relations, "number of application relations").unwrap_or(1);
@@ -145,9 +143,8 @@ impl<'a> Reader<'a, '_> {
                 self.keep_as_attributes(&tag, &mut submodule.attributes)?;
                 continue;
             }
-            let mut others = Attributes::new();
-            let [clock, ratio] = self.attributes_and_others(&tag, ["SendClock", "ReductionRatio"], &mut others)?;
-            add("TimingProperties", others, submodule);
+            let names = ["SendClock", "ReductionRatio"];
+            let [clock, ratio] = self.attributes_and_prefixed(&tag, names, &mut submodule.attributes)?;
             settings.send_clocks = self.numbers(&clock);
             settings.reduction_ratios = self.numbers(&ratio);
             self.no_children(&tag)?;
@@ -214,27 +211,5 @@ fn default_subslot(kind: SubmoduleKind) -> u16 {
         SubmoduleKind::Interface => INTERFACE,
         SubmoduleKind::Port => INTERFACE + 1,
         SubmoduleKind::Virtual | SubmoduleKind::Pluggable => 1,
-    }
-}
-
-/// Adds the attributes of a child element to a submodule, with the element's name as a prefix:
-/// `TimingProperties@PreferredSendClock`.
-fn add(element: &str, others: Attributes, submodule: &mut Submodule) {
-    let named = others.into_iter().map(|(key, value)| (format_compact!("{element}@{key}"), value));
-    submodule.attributes.extend(named);
-}
-
-impl Info<'_> {
-    /// Adds the contents of a `ModuleInfo` element to a submodule.
-    fn of_submodule(self, submodule: &mut Submodule) {
-        if !self.name.is_empty() {
-            submodule.name = self.name;
-        }
-        submodule.documentation = self.documentation;
-        submodule.identity.vendor_name = self.vendor.compact();
-        submodule.identity.order_code = self.order.compact();
-        submodule.attributes.extend(self.hardware.attribute("HardwareRelease"));
-        submodule.attributes.extend(self.software.attribute("SoftwareRelease"));
-        submodule.attributes.extend(self.attributes);
     }
 }
