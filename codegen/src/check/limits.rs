@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::context::Context;
-use crate::diagnostics::{codes, Diagnostics};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::owner::Owner;
 use crate::ir::{excluded, Excluded, Item, Type, Value};
 use crate::number::hex;
@@ -56,10 +56,8 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
             let message = format!("the minimum {low} is greater than the maximum {high}");
             let found = codes::LIMITS_SWAPPED.at(item.at.others.low.or(item.origin.span), message);
             let found = found.label("the limits are kept, but generated code does not check them");
-            diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
-                Some(help) => found.help(help),
-                None => found,
-            });
+            let help = with_other_sign(owner.basic(item.ty), low, high);
+            diagnostics.push(Diagnostic { help, ..found });
             return;
         }
     }

@@ -164,8 +164,6 @@ fn push_range(numbers: &mut Numbers, first: u16, last: u16) {
 fn nothing_fits(device: &Device, slot: u16, is_first: bool, diagnostics: &mut Diagnostics) {
     let message = format!("no module of this description fits into slot {slot}");
     let found = codes::NO_MODULE_FITS.at(device.origin.span, message).label("the slot stays empty");
-    diagnostics.push(match is_first {
-        true => found.help("check whether InfoReference names a file with the modules"),
-        false => found,
-    });
+    let help = "check whether InfoReference names a file with the modules";
+    diagnostics.push(if is_first { found.help(help) } else { found });
 }

@@ -151,10 +151,9 @@ fn open(
             let found = codes::REFERENCED_FILE.at(reference.span, message);
             let found = found.label("the content of the file is missing");
             // Only the first unreadable file is reported with the help text.
-            diagnostics.push(match std::mem::replace(is_reported, true) {
-                false => found.help("put the file in the folder of the description, and make the file readable"),
-                true => found,
-            });
+            let help = "put the file in the folder of the description, and make the file readable";
+            let is_first = !std::mem::replace(is_reported, true);
+            diagnostics.push(if is_first { found.help(help) } else { found });
             return None;
         }
     };

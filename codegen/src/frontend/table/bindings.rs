@@ -2,13 +2,12 @@
 
 use smallvec::SmallVec;
 
-use super::at::{At, TextOr};
+use super::at::At;
 use super::buses;
-use super::definitions::DefinitionKind;
 use super::format::{NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::ITEM;
-use super::rows::{Named, Rows};
+use super::rows::{definition, Named, Rows};
 use super::spaces::{self, Numbers};
 use super::tree::Reader;
 use super::{lints, notation, types};
@@ -63,12 +62,8 @@ impl Rows {
             return Repeat::ONCE;
         }
         let unit = self.unit(space);
-        let of_definition = match (&row.ty, &row.bits, &row.values) {
-            (None, Some(At { value: TextOr::Text(name), .. }), _) => Some((DefinitionKind::Bits, name)),
-            (None, _, Some(At { value: TextOr::Text(name), .. })) => Some((DefinitionKind::Enumeration, name)),
-            _ => None,
-        };
-        let base = of_definition.and_then(|(kind, name)| self.definitions.base(reader, kind, name));
+        let definition = definition(row).filter(|_| row.ty.is_none());
+        let base = definition.and_then(|(kind, name)| self.definitions.base(reader, kind, &name.value));
         let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value));
         let bits = bits.and_then(|named| self.definitions.bits_of(named.ty)?.checked_mul(named.elements.unwrap_or(1)));
         let bits = bits.or(base.and_then(Type::bits));

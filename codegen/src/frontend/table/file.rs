@@ -67,10 +67,8 @@ pub fn read(
     let mut table = Table::new(&mut reader, chosen)?;
     let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
         let found = codes::TABLE_VALUE.at(Span::new(file, 0, 0), "the table has no `[device]`");
-        reader.diagnostics.push(match table.node("overlay") {
-            Some(_) => found.help("pass the overlay with `--overlay`, next to the description that it changes"),
-            None => found,
-        });
+        let help = "pass the overlay with `--overlay`, next to the description that it changes";
+        reader.diagnostics.push(if table.node("overlay").is_some() { found.help(help) } else { found });
         return None;
     };
     let mut device = Device::default();

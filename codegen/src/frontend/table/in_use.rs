@@ -7,7 +7,7 @@ use compact_str::{format_compact, CompactString};
 
 use super::tree::Reader;
 use crate::collections::HashMap;
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::firmware::apart;
 use crate::ir::{Availability, Binding, Buses, Item, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::number::{self, written_object};
@@ -167,11 +167,7 @@ impl InUse {
 /// Reports the second use of a name or address.
 fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
     let found = codes::TABLE_DUPLICATE.at(item.at.name, format!("{what} occurs twice"));
-    let found = found.note_at(first, "first use");
-    reader.diagnostics.push(match help {
-        Some(help) => found.help(help),
-        None => found,
-    });
+    reader.diagnostics.push(Diagnostic { help: help.map(Into::into), ..found.note_at(first, "first use") });
 }
 
 fn numbers(first: u32, last: u32) -> String {

@@ -9,7 +9,7 @@ use super::notation::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::words::OBJECT_CODES;
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::number::hex16;
 use crate::text::brief;
@@ -30,10 +30,8 @@ pub(super) fn add(
     let Some(objects) = notation::objects(&key.value) else {
         let message = format!("`{}` is not an object address", brief(&key.value));
         let found = codes::TABLE_PLACE.at(reader.span(key), message).help(notation::OBJECT_HELP);
-        reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
-            Some(digits) => found.note(digits),
-            None => found,
-        });
+        let digits = super::lints::digits_of_index(reader, key);
+        reader.diagnostics.push(digits.into_iter().fold(found, Diagnostic::note));
         return;
     };
     rows.allow(reader, key, row);

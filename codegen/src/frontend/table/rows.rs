@@ -114,23 +114,17 @@ impl Rows {
             let found = types::named(&ty.value);
             if found.is_none() {
                 let what = format!("`{}` is not a known data type", brief(&ty.value));
-                let similar = types::suggestion(&ty.value);
-                let diagnostic = codes::TABLE_VALUE.at(reader.span(ty), what);
-                reader.diagnostics.push(match similar {
-                    Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
-                    None => diagnostic.help("write a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`"),
-                });
+                let help = match types::suggestion(&ty.value) {
+                    Some(name) => format!("did you mean `{name}`?"),
+                    None => "write a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`".to_owned(),
+                };
+                reader.report_with_help(&codes::TABLE_VALUE, reader.span(ty), what, help);
             }
             found
         });
-        let by_definition = || match (&row.bits, &row.values) {
-            (Some(At { value: TextOr::Text(name), .. }), _) => Some((DefinitionKind::Bits, name.clone())),
-            (_, Some(At { value: TextOr::Text(name), .. })) => Some((DefinitionKind::Enumeration, name.clone())),
-            _ => None,
-        };
         let (base, elements) = match written {
             Some(written) => (Some(written.ty), written.elements),
-            None => (by_definition().and_then(|(kind, name)| self.definitions.base(reader, kind, &name)), None),
+            None => (definition(row).and_then(|(kind, name)| self.definitions.base(reader, kind, &name.value)), None),
         };
         let Some(base) = base else {
             if row.ty.is_none() {
@@ -153,25 +147,16 @@ impl Rows {
             let message = "the row has both `bits` and `enum`, which exclude each other";
             reader.report(&codes::TABLE_VALUE, reader.span(values), message);
         }
-        if let Some(bits) = &row.bits {
-            return match &bits.value {
-                TextOr::Text(name) if name.is_empty() => None,
-                TextOr::Text(name) => {
-                    let name = At { value: name.clone(), start: bits.start, end: bits.end };
-                    self.definitions.named(reader, DefinitionKind::Bits, &name, base)
-                }
-                TextOr::Table(table) => Some(self.definitions.inline_bits(reader, named.name, origin, base, table)),
-            };
-        }
-        match &row.values.as_ref()?.value {
-            TextOr::Text(name) if name.is_empty() => None,
-            TextOr::Text(name) => {
-                let at = row.values.as_ref()?;
-                let name = At { value: name.clone(), start: at.start, end: at.end };
-                self.definitions.named(reader, DefinitionKind::Enumeration, &name, base)
+        let (kind, name) = match (&row.bits, &row.values) {
+            (Some(At { value: TextOr::Table(table), .. }), _) => {
+                return Some(self.definitions.inline_bits(reader, named.name, origin, base, table));
             }
-            TextOr::Table(table) => Some(self.definitions.inline_values(reader, named.name, origin, base, table)),
-        }
+            (None, Some(At { value: TextOr::Table(table), .. })) => {
+                return Some(self.definitions.inline_values(reader, named.name, origin, base, table));
+            }
+            _ => definition(row).filter(|(_, name)| !name.value.is_empty())?,
+        };
+        self.definitions.named(reader, kind, &name, base)
     }
 
     fn array(&mut self, reader: &Reader<'_, '_>, named: Named<'_>, element: Type, count: u32) -> Type {
@@ -451,6 +436,16 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
         documentation.text_from = (!from.value.is_empty()).then(|| Box::new(origin));
     }
     documentation
+}
+
+/// Returns the name of the bit field or enumeration that a row names, with its kind.
+pub(super) fn definition(row: &Row) -> Option<(DefinitionKind, At<String>)> {
+    let (kind, name, start, end) = match (&row.bits, &row.values) {
+        (Some(At { value: TextOr::Text(name), start, end }), _) => (DefinitionKind::Bits, name, start, end),
+        (_, Some(At { value: TextOr::Text(name), start, end })) => (DefinitionKind::Enumeration, name, start, end),
+        _ => return None,
+    };
+    Some((kind, At { value: name.clone(), start: *start, end: *end }))
 }
 
 /// Returns whether `bits = ""` or `enum = ""` in a row states that the manual names no bits or values.

@@ -13,7 +13,7 @@ pub(super) use super::read::Node;
 use super::read::{self, MistakeKind, Read};
 use super::references::References;
 use crate::collections::HashMap;
-use crate::diagnostics::{codes, Code, Diagnostics};
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{Documentation, Doubt, Doubts, FactOrigin, LocalText, Reference, Severity, Texts};
 use crate::limits::MAX_UNKNOWN_KEYS;
 use crate::source::{FileId, Origin, Source, Span};
@@ -64,11 +64,8 @@ impl<'a> Reader<'a, '_> {
             let follows = std::mem::replace(&mut last_line, line) == line || error.unexpected().is_none();
             if position == 0 || !follows {
                 let (span, message) = (Span::new(self.file, start, end), message(error));
-                let diagnostic = codes::TABLE_SYNTAX.at(self.visible(span), message.clone());
-                self.diagnostics.push(match hint(&message) {
-                    Some(hint) => diagnostic.help(hint),
-                    None => diagnostic,
-                });
+                let help = hint(&message).map(Into::into);
+                self.diagnostics.push(Diagnostic { help, ..codes::TABLE_SYNTAX.at(self.visible(span), message) });
             }
         }
         errors.is_empty().then_some(table)

@@ -24,10 +24,8 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
             let span = reader.span(given);
             let diagnostic = codes::TABLE_VALUE.at(span, format!("`{}` is not a value of the type {ty}", brief(&text)));
             let is_real = matches!(given.value, Literal::Real(_));
-            reader.diagnostics.push(match is_real {
-                true => diagnostic.help("write raw values: limits and defaults apply before `scale`"),
-                false => diagnostic,
-            });
+            let help = "write raw values: limits and defaults apply before `scale`";
+            reader.diagnostics.push(if is_real { diagnostic.help(help) } else { diagnostic });
             Value::Raw(text.into())
         }
     }

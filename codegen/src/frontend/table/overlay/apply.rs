@@ -13,7 +13,7 @@ use super::super::{code_tables, device, machines};
 use super::change::{file_name, Change, ObjectSet, RowEffect, RowPatcher};
 use super::{Overlay, PatchRow, Target};
 use crate::collections::{HashMap, HashMapExt, HashSet};
-use crate::diagnostics::{codes, Diagnostics};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::Overlay as ReadOverlay;
 use crate::ir::object_names::{item_name, name_conditions};
 use crate::ir::{
@@ -338,22 +338,18 @@ impl<'o> Applied<'o> {
         let found = match row.target {
             Target::Objects(_) => {
                 let found = found(format!("the description has no object `{key}`"));
-                let removes = row.row.value.remove == Some(true);
-                if removes {
+                let help = "write `add = true` to add the object to the description";
+                if row.row.value.remove == Some(true) {
                     found
                 } else {
-                    found.help("write `add = true` to add the object to the description")
+                    found.help(help)
                 }
             }
             Target::Name => {
                 let found = found(format!("no item has the name `{key}`"));
-                match similar(
-                    &row.key.value,
-                    self.names.iter().map(CompactString::as_str).take_while(|_| reader.helps()),
-                ) {
-                    Some(name) => found.help(format!("did you mean `{name}`?")),
-                    None => found,
-                }
+                let names = self.names.iter().map(CompactString::as_str).take_while(|_| reader.helps());
+                let help = similar(&row.key.value, names).map(|name| format!("did you mean `{name}`?"));
+                Diagnostic { help, ..found }
             }
         };
         reader.diagnostics.push(found);
