@@ -33,8 +33,7 @@ impl Converter<'_> {
         Some(match ty {
             Type::Integer(_) | Type::Unsigned(_) => self.integer(text, span, ty, role),
             Type::Boolean => self.boolean(text, span),
-            Type::Real32 => self.real(text, span, 32),
-            Type::Real64 => self.real(text, span, 64),
+            Type::Real32 | Type::Real64 => self.real(text, span, ty),
             Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(self.unquoted(text, span).into()),
             Type::OctetString(_) => self.octets(text, span),
             Type::Domain => {
@@ -208,10 +207,9 @@ impl Converter<'_> {
         }
     }
 
-    fn real(&mut self, text: &str, span: Span, bits: u32) -> Value {
-        let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
+    fn real(&mut self, text: &str, span: Span, ty: Type) -> Value {
         if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-            return self.real_bits(digits, text, span, bits);
+            return self.real_bits(digits, text, span, ty);
         }
         if let Some(value) = finite(text) {
             return Value::Real(value);
@@ -234,8 +232,8 @@ impl Converter<'_> {
 
     /// Reads a hexadecimal number for a real type. The digits are a bit pattern if there are exactly as many digits as
     /// the type needs. Otherwise, the number is the value itself.
-    fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
-        let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
+    fn real_bits(&mut self, digits: &str, text: &str, span: Span, ty: Type) -> Value {
+        let bits = if ty == Type::Real32 { 32 } else { 64 };
         let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.not_finite(text, span, ty) };
         if digits.starts_with('+') {
             return self.not_finite(text, span, ty);

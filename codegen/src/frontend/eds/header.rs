@@ -79,13 +79,6 @@ fn position(names: &[&str], key: &str) -> Option<usize> {
     names.iter().position(|name| name.eq_ignore_ascii_case(key))
 }
 
-/// Reports a key that a section repeats. `seen` contains the earlier entry of each known key.
-fn once(reader: &mut Reader<'_, '_>, seen: &mut [Option<Entry>], which: usize, entry: &Entry) {
-    if let Some(earlier) = seen[which].replace(*entry) {
-        reader.duplicate_key(&earlier, entry);
-    }
-}
-
 const FILE_INFO: [&str; 12] = [
     "FileName",
     "FileVersion",
@@ -108,7 +101,7 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
             reader.extension(entry, &mut device.extensions);
             continue;
         };
-        once(reader, &mut seen, which, entry);
+        reader.once(&mut seen[which], entry);
         let text = reader.doc.value(entry);
         let form_ok = match which {
             1 | 2 => is_version(text),
@@ -244,7 +237,7 @@ fn device_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
             }
             continue;
         };
-        once(reader, &mut seen, which, entry);
+        reader.once(&mut seen[which], entry);
         match which {
             0..=2 => {
                 let (mut name, mut at) = (CompactString::default(), Default::default());
@@ -290,7 +283,7 @@ fn bit_rate(
     let rate = rate.and_then(|rate| rate.parse::<u16>().ok());
     let which = rate.and_then(|rate| BIT_RATES.iter().position(|&known| known == rate));
     let Some(which) = which else { return false };
-    once(reader, seen, which, entry);
+    reader.once(&mut seen[which], entry);
     let rate = BIT_RATES[which];
     canopen.bit_rates.retain(|&other| other != rate);
     if reader.flag(entry) {
@@ -317,7 +310,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut D
             reader.extension(entry, &mut device.extensions);
             continue;
         };
-        once(reader, &mut seen, usize::from(code), entry);
+        reader.once(&mut seen[usize::from(code)], entry);
         usage[usize::from(code)] = reader.flag(entry);
     }
     canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
@@ -338,11 +331,7 @@ pub(super) fn comments(
         match digits.and_then(|digits| digits.parse::<u32>().ok()) {
             Some(number) => numbered.push((number, *entry)),
             // The value of `Lines` is ignored because it is redundant and often wrong.
-            None if key.eq_ignore_ascii_case("Lines") => {
-                if let Some(earlier) = count.replace(*entry) {
-                    reader.duplicate_key(&earlier, entry);
-                }
-            }
+            None if key.eq_ignore_ascii_case("Lines") => reader.once(&mut count, entry),
             None => reader.extension(entry, extensions),
         }
     }
@@ -365,7 +354,7 @@ fn commissioning(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut
             reader.extension(entry, &mut device.extensions);
             continue;
         };
-        once(reader, &mut seen, which, entry);
+        reader.once(&mut seen[which], entry);
         let text = reader.doc.value(entry);
         match which {
             0 => settings.node_id = node_id(reader, entry),
@@ -411,12 +400,8 @@ fn dynamic_channels(
         let key = reader.doc.key(entry);
         let split = key.len() - key.bytes().rev().take_while(u8::is_ascii_digit).count();
         match (position(&FIELDS, &key[..split]), key[split..].parse::<u32>()) {
-            (Some(field), Ok(number)) => once(reader, segments.entry(number).or_default(), field, entry),
-            _ if key.eq_ignore_ascii_case("NrOfSeg") => {
-                if let Some(earlier) = count.replace(*entry) {
-                    reader.duplicate_key(&earlier, entry);
-                }
-            }
+            (Some(field), Ok(number)) => reader.once(&mut segments.entry(number).or_default()[field], entry),
+            _ if key.eq_ignore_ascii_case("NrOfSeg") => reader.once(&mut count, entry),
             _ => reader.extension(entry, &mut device.extensions),
         }
     }

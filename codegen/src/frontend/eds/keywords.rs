@@ -146,9 +146,7 @@ impl Reader<'_, '_> {
                         }
                     },
                 };
-                if let Some(earlier) = field.replace(entry) {
-                    self.duplicate_key(&earlier, &entry);
-                }
+                self.once(field, &entry);
             }
         }
         unknown.iter().for_each(|entry| self.misspelled(entry, raw));

@@ -28,9 +28,7 @@ impl Lists {
         let mut earlier = None;
         for entry in reader.doc.entries_of(sections) {
             if reader.doc.key(&entry).eq_ignore_ascii_case("NrOfEntries") {
-                if let Some(earlier) = earlier.replace(entry) {
-                    reader.duplicate_key(&earlier, &entry);
-                }
+                reader.once(&mut earlier, &entry);
                 let span = reader.doc.value_span(&entry);
                 reader.announced_modules = reader.unsigned(&entry, 0xFFFF).map(|count| (count, span));
             } else {
@@ -101,9 +99,7 @@ fn by_number(
         if let Some(number) = reader.key_number(&entry) {
             entries.push((number, entry));
         } else if doc.key(&entry).eq_ignore_ascii_case(count_key) {
-            if let Some(earlier) = count.replace(entry) {
-                reader.duplicate_key(&earlier, &entry);
-            }
+            reader.once(&mut count, &entry);
         } else {
             others(reader, &entry);
         }
@@ -142,49 +138,22 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     true
 }
 
-/// Set of object indices, stored as bits.
-struct Indices {
-    /// Minimum index of the set, divided by 64.
-    first: u16,
-    words: Vec<u64>,
-}
-
-impl Indices {
-    /// Creates an empty set with space for the indices `all`.
-    fn new(all: impl Iterator<Item = u16> + Clone) -> Self {
-        let first = all.clone().min().unwrap_or(0) / 64;
-        Indices { first, words: vec![0; usize::from(all.max().unwrap_or(0) / 64 - first) + 1] }
-    }
-
-    /// Adds `index` to the set. Returns true if the set did not contain the index.
-    fn insert(&mut self, index: u16) -> bool {
-        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get_mut(usize::from(word)));
-        let Some(word) = word else { return false };
-        let (before, bit) = (*word, 1 << (index % 64));
-        *word |= bit;
-        before & bit == 0
-    }
-
-    fn contains(&self, index: u16) -> bool {
-        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get(usize::from(word)));
-        word.is_some_and(|word| word >> (index % 64) & 1 == 1)
-    }
-}
+/// Number of possible object indices.
+const INDICES: usize = 0x1_0000;
 
 /// Compares the object lists with the objects of `device`.
 pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device) {
-    let indices = device.groups.iter().filter_map(Group::index);
-    let mut described = Indices::new(indices.clone());
-    for index in indices {
-        described.insert(index);
+    let mut described = vec![false; INDICES];
+    for index in device.groups.iter().filter_map(Group::index) {
+        described[usize::from(index)] = true;
     }
-    let mut listed = Indices::new(lists.listed.iter().map(|&(index, ..)| index));
+    let mut listed = vec![false; INDICES];
     for &(index, list, span) in &lists.listed {
-        if !listed.insert(index) {
+        if std::mem::replace(&mut listed[usize::from(index)], true) {
             let message = format!("{} is listed twice", hex16(index));
             reader.diagnostics.push(codes::LISTED_TWICE.at(span, message));
         }
-        if !described.contains(index) {
+        if !described[usize::from(index)] {
             let message = format!("{} is listed, but the section [{index:04X}] is missing", hex16(index));
             reader.report(&codes::LISTED_NOT_DESCRIBED, span, message, "the object is left out");
         }
@@ -200,14 +169,14 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     }
     not_listed(reader, lists, &listed, device);
     for (index, span) in std::mem::take(&mut reader.link_spans) {
-        if !described.contains(index) {
+        if !described[usize::from(index)] {
             let message = format!("the link refers to {}, which the file does not describe", hex16(index));
             reader.diagnostics.push(codes::DANGLING_LINK.at(span, message));
         }
     }
 }
 
-fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, device: &Device) {
+fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &[bool], device: &Device) {
     if lists.listed.is_empty() {
         if let Some(group) = device.groups.first() {
             let found =
@@ -220,7 +189,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, devi
     }
     for group in &device.groups {
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
-        if !listed.contains(index) {
+        if !listed[usize::from(index)] {
             let message = format!("object {} is described, but is in no object list", hex16(index));
             reader.diagnostics.push(codes::NOT_LISTED.at(group.origin.span, message));
         }

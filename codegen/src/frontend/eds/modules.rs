@@ -110,9 +110,7 @@ fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) 
                 reader.extension(entry, &mut module.extensions);
                 continue;
             };
-            if let Some(earlier) = seen[which].replace(*entry) {
-                reader.duplicate_key(&earlier, entry);
-            }
+            reader.once(&mut seen[which], entry);
             let text = match which {
                 0 => &mut module.name,
                 1 => &mut module.version,

@@ -288,6 +288,14 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
     }
 
+    /// Stores the entry of a key, and reports an earlier entry with the same key.
+    #[inline]
+    pub(super) fn once(&mut self, seen: &mut Option<Entry>, entry: &Entry) {
+        if let Some(earlier) = seen.replace(*entry) {
+            self.duplicate_key(&earlier, entry);
+        }
+    }
+
     pub(super) fn duplicate_key(&mut self, earlier: &Entry, later: &Entry) {
         let found = repeated(self.doc.key_span(later), self.doc.key(later)).label("this value is used");
         self.diagnostics.push(found.note_at(self.doc.value_span(earlier), "this value is ignored"));
