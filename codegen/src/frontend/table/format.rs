@@ -187,12 +187,6 @@ pub enum ConditionValues {
     Bits(ConditionTable),
 }
 
-impl Default for ConditionValues {
-    fn default() -> Self {
-        ConditionValues::Values(OneOrMany::default())
-    }
-}
-
 /// Required values of other items, by item name.
 pub type Conditions = Entries<ConditionValues>;
 

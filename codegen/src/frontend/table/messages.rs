@@ -1,9 +1,7 @@
 //! Reads the messages of a command protocol, and the spaces whose parameters they transfer.
 
 use super::at::{At, FlagOr, Literal, TextOr};
-use super::format::{
-    field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row, SpaceTable,
-};
+use super::format::{field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row};
 use super::references::ITEM_OR_FIELD;
 use super::rows::{Named, Rows};
 use super::tree::Reader;
@@ -13,7 +11,7 @@ use crate::diagnostics::codes;
 use crate::ir::owner::Owner;
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
-    MessageField, MessageValue, ParameterSpace, Type, Value,
+    MessageField, MessageValue, ParameterSpace, SpaceRef, Type, Value,
 };
 use crate::limits;
 use crate::resolve::messages::fixed_bits;
@@ -41,17 +39,12 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: 
     if let Some(table) = file.take(reader, "framing") {
         framing::read(reader, &table, device);
     }
-    let tables = file.spaces.iter().map(|(name, table)| (name, table));
-    spaces(reader, tables, device);
+    spaces(reader, file, device);
 }
 
 /// Reads the spaces whose key `parameter` names the messages that transfer parameters.
-fn spaces<'t>(
-    reader: &mut Reader<'_, '_>,
-    tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
-    device: &mut Device,
-) {
-    for (name, table) in tables {
+fn spaces(reader: &mut Reader<'_, '_>, file: &Table<'_>, device: &mut Device) {
+    for (name, table) in &file.spaces {
         let Some(FlagOr::Table(rule)) = &table.parameter else { continue };
         let messages = [&rule.read, &rule.write, &rule.store];
         reader.mention(messages.into_iter().flatten(), "message");
@@ -297,16 +290,13 @@ impl Fields<'_, '_, '_> {
             return self.bytes(copy).map(|(first, last)| MessageField::Copy { first, last });
         }
         if let Some(space) = &given.code {
-            self.space(space);
-            return Some(MessageField::ItemCode { space: self.reader.reference(space), bits: self.code_bits(field) });
+            return Some(MessageField::ItemCode { space: self.space(space), bits: self.code_bits(field) });
         }
         if let Some(space) = &given.value_of {
-            self.space(space);
-            return Some(MessageField::ItemValue { space: self.reader.reference(space) });
+            return Some(MessageField::ItemValue { space: self.space(space) });
         }
         if let Some(space) = &given.zeros_for {
-            self.space(space);
-            return Some(MessageField::ItemPadding { space: self.reader.reference(space) });
+            return Some(MessageField::ItemPadding { space: self.space(space) });
         }
         if let Some(repeat) = &given.repeat {
             if let Some(count) = repeat.count.as_ref().filter(|count| !before.contains(count.value.as_str())) {
@@ -396,11 +386,12 @@ impl Fields<'_, '_, '_> {
         }
     }
 
-    fn space(&mut self, name: &At<String>) {
+    fn space(&mut self, name: &At<String>) -> SpaceRef {
         if !self.rows.spaces.iter().any(|space| space.name == name.value) {
             let known: Vec<String> = self.rows.spaces.iter().map(|space| space.name.clone()).collect();
             self.reader.unresolved("space", &name.value, self.reader.span(name), known.iter().map(String::as_str));
         }
+        self.reader.reference(name)
     }
 
     /// Returns the length of a parameter number in bits: that of the field's type, or 16 if the field has no type. Reports

@@ -132,12 +132,8 @@ impl<'o> Applied<'o> {
     /// names.
     fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
         let mut device = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
-        self.resolve_in(reader, &device);
+        resolve(reader, &self.patcher.rows, &device);
         (*groups, *types) = (std::mem::take(&mut device.groups), std::mem::take(&mut device.types));
-    }
-
-    fn resolve_in(&mut self, reader: &mut Reader<'_, '_>, device: &Device) {
-        resolve(reader, &self.patcher.rows, device);
     }
 
     /// Reports that a changed module or submodule is also part of a device that the overlay does not select.
@@ -183,7 +179,7 @@ impl<'o> Applied<'o> {
             machines::procedure(reader, name, table, device);
         }
         device.doubts.extend(self.overlay_doubts(reader));
-        self.resolve_in(reader, device);
+        resolve(reader, &self.patcher.rows, device);
     }
 
     /// Returns the change that the definition on the line `line` of the overlay makes.
