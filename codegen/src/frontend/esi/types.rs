@@ -1,7 +1,6 @@
 //! Converts the data types of a dictionary to types of the IR.
 
 use std::borrow::Cow;
-use std::collections::hash_map::Entry;
 
 use compact_str::format_compact;
 use smallvec::SmallVec;
@@ -462,13 +461,8 @@ impl<'n> Seen<'n> {
             self.few.push(name);
             return None;
         }
-        match self.many.entry(name.text.as_ref()) {
-            Entry::Occupied(same) => Some(*same.get()),
-            Entry::Vacant(free) => {
-                free.insert(name.span);
-                None
-            }
-        }
+        let first = *self.many.entry(name.text.as_ref()).or_insert(name.span);
+        (first != name.span).then_some(first)
     }
 }
 

@@ -1,7 +1,5 @@
 //! Reads tables of codes, such as alarms, emergency codes and abort codes.
 
-use std::collections::hash_map::Entry;
-
 use super::at::{At, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::Reader;
@@ -108,13 +106,8 @@ impl<'t> Distinct<'t> {
             .map(|literal| Cell::of(&literal.value))
             .collect::<Option<Vec<_>>>()
             .filter(|cells| !cells.is_empty())?;
-        match self.0.entry(cells) {
-            Entry::Occupied(first) => Some(first.get()),
-            Entry::Vacant(none) => {
-                none.insert(key);
-                None
-            }
-        }
+        let first = *self.0.entry(cells).or_insert(key);
+        (first.start != key.start).then_some(first)
     }
 }
 

@@ -11,15 +11,6 @@ use super::value;
 use crate::diagnostics::codes;
 use crate::ir::{Availability, Condition, ElementRef, Type};
 
-/// Availability of an element as the table declares it.
-pub(super) struct GivenAvailability<'t> {
-    pub models: Option<&'t Vec<At<String>>>,
-    /// First firmware version that has the element, and first later firmware version that no longer has it.
-    pub versions: [Option<&'t str>; 2],
-    pub replaced_by: Option<&'t str>,
-    pub buses: Option<&'t Vec<At<String>>>,
-}
-
 /// Reads the condition of a bit or value. Reports a condition on several items, and reads only its first item.
 pub(super) fn condition(reader: &mut Reader<'_, '_>, when: Option<&Conditions>) -> Option<Box<Condition>> {
     let given = when?;
@@ -54,16 +45,21 @@ pub(super) fn conditions(reader: &mut Reader<'_, '_>, when: &Conditions) -> Vec<
 
 /// Reads the models, firmware versions and buses that have an element, and the element that replaces it. Returns `None` if the
 /// table states none of these facts.
-pub(super) fn availability(reader: &mut Reader<'_, '_>, given: GivenAvailability<'_>) -> Option<Box<Availability>> {
-    let models = given.models.into_iter().flatten();
+pub(super) fn availability(
+    reader: &mut Reader<'_, '_>,
+    models: &Option<Vec<At<String>>>,
+    [since, until]: [&Option<String>; 2],
+    replaced_by: Option<&str>,
+    buses: Option<&Vec<At<String>>>,
+) -> Option<Box<Availability>> {
+    let models = models.iter().flatten();
     reader.mention(models.clone(), "model");
-    let [since, until] = given.versions;
     let availability = Availability {
         models: models.map(|model| model.value.as_str().into()).collect(),
-        since: since.map(CompactString::from),
-        until: until.map(CompactString::from),
-        replaced_by: given.replaced_by.map(ElementRef::from),
-        buses: given.buses.map(|list| buses::read(reader, list)).unwrap_or_default(),
+        since: since.as_deref().map(CompactString::from),
+        until: until.as_deref().map(CompactString::from),
+        replaced_by: replaced_by.map(ElementRef::from),
+        buses: buses.map(|list| buses::read(reader, list)).unwrap_or_default(),
         ..Availability::default()
     };
     (availability != Availability::default()).then(|| Box::new(availability))

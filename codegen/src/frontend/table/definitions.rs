@@ -4,13 +4,12 @@ use compact_str::{format_compact, CompactString};
 
 use super::at::{At, TextOr};
 use super::by_name::ByName;
-use super::conditions::{self, GivenAvailability};
 use super::format::{
     BitEntries, BitTable, BitsTable, Documented, Doubted, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable,
 };
 use super::tree::Reader;
 use super::words::ACCESSES;
-use super::{lints, notation, types, value};
+use super::{conditions, lints, notation, types, value};
 use crate::collections::HashMap;
 use crate::diagnostics::codes;
 use crate::ir::owner::Owner;
@@ -205,7 +204,13 @@ impl Definitions {
                 zone,
                 names: reader.original(more.orig.as_deref()),
                 when: conditions::condition(reader, more.when.as_ref()),
-                availability: conditions::availability(reader, given_availability(more)),
+                availability: conditions::availability(
+                    reader,
+                    &more.models,
+                    [&more.since, &more.until],
+                    more.replaced_by.as_deref(),
+                    more.buses.as_ref(),
+                ),
                 documentation: reader.documentation_of(more),
                 at: Mark(reader.span(key)),
             });
@@ -282,12 +287,10 @@ impl Definitions {
             access: table.access.as_ref().and_then(|access| reader.word(access, "access right", &ACCESSES)),
             availability: conditions::availability(
                 reader,
-                GivenAvailability {
-                    models: table.models.as_ref(),
-                    versions: [table.since.as_deref(), table.until.as_deref()],
-                    replaced_by: table.replaced_by.as_deref(),
-                    buses: None,
-                },
+                &table.models,
+                [&table.since, &table.until],
+                table.replaced_by.as_deref(),
+                None,
             ),
             documentation: reader.documentation_of(table),
             at: Mark(reader.span(key)),
@@ -382,15 +385,6 @@ fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, base: Type, first:
     }
     // The result fits `u8` because an integer has at most 64 bits.
     Some((number?.saturating_mul(8).saturating_add(offset), bits))
-}
-
-fn given_availability(value: &ValueTable) -> GivenAvailability<'_> {
-    GivenAvailability {
-        models: value.models.as_ref(),
-        versions: [value.since.as_deref(), value.until.as_deref()],
-        replaced_by: value.replaced_by.as_deref(),
-        buses: value.buses.as_ref(),
-    }
 }
 
 /// Returns whether the name of a value or bit is empty. Reports an empty name.

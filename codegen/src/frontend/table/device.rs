@@ -54,10 +54,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
 
 /// Reads the range of valid node-IDs. Returns `None` and reports an error if `given` is not a valid range within 1 to 255.
 fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
-    let range = match &given.value {
-        NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),
-        NumberOrText::Text(text) => notation::range(text),
-    };
+    let range = notation::range(&given.value.to_string());
     let number = |number: i128| u8::try_from(number).ok().filter(|&number| number > 0);
     let found = range.and_then(|(first, last)| Some((number(first)?, number(last)?)));
     let found = found.filter(|(first, last)| first <= last);
@@ -141,12 +138,8 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
     device.doubts.extend(reader.doubts_of(axes, origin));
     let mut rules = Vec::new();
     for rule in &axes.rules {
-        let objects = rule.value.objects.as_ref().and_then(|objects| match &objects.value {
-            NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
-            NumberOrText::Text(text) => {
-                notation::objects(text).filter(|objects| objects.subs.is_none()).map(|objects| objects.indices)
-            }
-        });
+        let objects = rule.value.objects.as_ref().and_then(|objects| notation::objects(&objects.value.to_string()));
+        let objects = objects.filter(|objects| objects.subs.is_none()).map(|objects| objects.indices);
         let step = match (&rule.value.index, &rule.value.sub, &rule.value.sub_stride) {
             (Some(index), None, None) => Some(AxisStep::Index(*index)),
             (None, Some(word), None) if word == "axis" => Some(AxisStep::SubIndex),

@@ -188,11 +188,8 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
     }
     for (_, row) in rows.iter().filter(|(_, row)| row.value.obj.is_none()) {
         let Some(reg) = &row.value.reg else { continue };
-        let number = match &reg.value {
-            NumberOrText::Number(number) => u32::try_from(*number).ok(),
-            NumberOrText::Text(text) => notation::registers(text).map(|(first, _)| first),
-        };
-        let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
+        let number = notation::registers(&reg.value.to_string());
+        let Some((index, _)) = number.and_then(|(first, _)| space?.object(first)) else { continue };
         let message = format!(
             "the row has no object, but the rule in `[spaces]` gives {}, and other rows of the chapter have objects",
             hex16(index)

@@ -10,8 +10,8 @@ use crate::collections::HashSet;
 use crate::diagnostics::codes;
 use crate::ir::owner::Owner;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
-    MessageField, MessageValue, ParameterSpace, SpaceRef, Type, Value,
+    Access, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample, MessageField,
+    MessageValue, ParameterSpace, SpaceRef, Type, Value,
 };
 use crate::limits;
 use crate::resolve::messages::fixed_bits;
@@ -96,7 +96,9 @@ fn message(
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
     let completion = completion(reader, given.completion.as_ref(), &replies);
     mention(reader, given);
-    let availability = availability(given);
+    let replaced_by = given.replaced_by.as_ref().map(|name| name.value.as_str());
+    let versions = [&given.since, &given.until];
+    let availability = conditions::availability(reader, &given.models, versions, replaced_by, None);
     let mut doubts = reader.doubts_of(given, origin);
     let examples = given.examples.iter().map(|frames| example(reader, frames, &mut doubts)).collect();
     let effects = given.effects.iter().flat_map(|effects| &effects.0);
@@ -114,7 +116,7 @@ fn message(
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
         accepted_when: given.when.as_ref().map(|when| conditions::conditions(reader, when)).unwrap_or_default(),
         names: reader.original(given.orig.as_deref()),
-        availability: (availability != Availability::default()).then(|| Box::new(availability)),
+        availability,
         accepted_in: given.accepted_in.iter().map(|name| reader.reference(name)).collect(),
         examples,
         documentation: reader.documentation_of(given),
@@ -164,21 +166,10 @@ fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut D
     }
 }
 
-fn availability(message: &MessageTable) -> Availability {
-    Availability {
-        models: message.models.iter().flatten().map(text).collect(),
-        since: message.since.as_deref().map(Into::into),
-        until: message.until.as_deref().map(Into::into),
-        replaced_by: message.replaced_by.as_ref().map(|name| name.value.as_str().into()),
-        ..Availability::default()
-    }
-}
-
 /// Adds the names to which a message refers.
 fn mention(reader: &mut Reader<'_, '_>, message: &MessageTable) {
     let messages = [&message.after, &message.error, &message.replaced_by];
     reader.mention(messages.into_iter().flatten(), "message");
-    reader.mention(message.models.iter().flatten(), "model");
     reader.mention(&message.accepted_in, "state");
 }
 

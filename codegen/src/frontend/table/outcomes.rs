@@ -1,13 +1,12 @@
 //! Reads the state-command matrix of a state machine: the outcome of each command in each state.
 
 use super::at::{At, TextOr};
+use super::conditions;
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::tree::{cited, Reader};
 use crate::collections::HashSet;
 use crate::diagnostics::codes;
-use crate::ir::{
-    Availability, CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef,
-};
+use crate::ir::{CommandOutcomes, Device, Documentation, Doubts, Outcome, Pattern, Reference, StateOutcome, StateRef};
 use crate::source::Span;
 use crate::text::{brief, count_of};
 
@@ -80,7 +79,7 @@ fn row(
     for command in &commands {
         names.command(reader, &command.value, reader.span(command));
     }
-    reader.mention(cells_row.models.iter().flatten(), "model");
+    let availability = conditions::availability(reader, &cells_row.models, [&cells_row.since, &None], None, None);
     if cells_row.cells.len() != table.states.len() {
         let message = format!(
             "`{}` has {}, but the matrix has {}",
@@ -95,15 +94,10 @@ fn row(
         let (outcomes, documentation) = cell(reader, table, given, names);
         cells.push(StateOutcome { state: reader.reference(state), outcomes, documentation });
     }
-    let availability = Availability {
-        models: cells_row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
-        since: cells_row.since.as_deref().map(Into::into),
-        ..Availability::default()
-    };
     CommandOutcomes {
         name: name.value.as_str().into(),
         commands: commands.iter().map(|command| reader.reference(command)).collect(),
-        availability: (availability != Availability::default()).then(|| Box::new(availability)),
+        availability,
         cells,
         documentation: reader.documentation_of(cells_row),
         origin: reader.origin(name),

@@ -2,7 +2,7 @@
 
 use super::at::At;
 use super::buses;
-use super::format::{NumberOrText, PdoTable};
+use super::format::PdoTable;
 use super::notation;
 use super::tree::Reader;
 use super::types;
@@ -55,11 +55,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, targets: &T
     }
     pdo.sync_manager = given.sm.as_ref().map(|sm| sm.value).filter(|_| given.default);
     for excluded in &given.excludes {
-        let found = match excluded {
-            NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
-            NumberOrText::Text(text) => notation::objects(text).map(|objects| objects.indices),
-        };
-        match found {
+        match notation::objects(&excluded.to_string()).map(|objects| objects.indices) {
             Some((first, last)) if usize::from(last.saturating_sub(first)) + pdo.excludes.len() > MAX_EXCLUDED => {
                 let message = format!("`excludes` has more than {MAX_EXCLUDED} PDOs, the maximum of a device");
                 reader.report(&codes::TABLE_VALUE, reader.span(table), message);

@@ -29,10 +29,7 @@ pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Pro
     let name = CompactString::from(head.name.as_deref().unwrap_or_default());
     reader.standard.clone_from(&name);
     let when = head.when.as_ref().and_then(|when| {
-        let index = match &when.value {
-            NumberOrText::Number(number) => u16::try_from(*number).ok(),
-            NumberOrText::Text(text) => notation::objects(text).map(|objects| objects.indices.0),
-        };
+        let index = notation::objects(&when.value.to_string()).map(|objects| objects.indices.0);
         if index.is_none() {
             reader.report(&codes::TABLE_PLACE, reader.span(when), "`when` must be an object such as `0x6040`");
         }
