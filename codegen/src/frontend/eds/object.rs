@@ -268,14 +268,14 @@ impl<'a> Reader<'a, '_> {
         if let Some(entry) = raw.get(Key::ParameterValue) {
             item.at.others.configured = self.doc.value_span(entry);
         }
+        let value = self.typed(raw.get(Key::ParameterValue), item.ty, Role::Value);
         let text = |key| raw.get(key).map(|entry| self.doc.value(entry)).filter(|text| !text.is_empty());
-        let mut configured = Configured {
-            value: None,
+        let configured = Configured {
+            value,
             denotation: text(Key::Denotation).map(CompactString::from),
             upload_file: text(Key::UploadFile).map(CompactString::from),
             download_file: text(Key::DownloadFile).map(CompactString::from),
         };
-        configured.value = self.typed(raw.get(Key::ParameterValue), item.ty, Role::Value);
         if configured != Configured::default() {
             item.configured = Some(Box::new(configured));
         }

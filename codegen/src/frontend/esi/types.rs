@@ -530,19 +530,8 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
 
 /// Returns a bit field of single bits, which are named after their offsets: `Bit 0`, `Bit 1`.
 fn bit_array(width: u8) -> Shape {
-    let bit = |offset| BitFieldEntry {
-        name: format_compact!("Bit {offset}"),
-        names: Default::default(),
-        offset,
-        bits: 1,
-        meaning: BitMeaning::Flag { inverted: false },
-        when: None,
-        trigger: None,
-        access: None,
-        availability: None,
-        documentation: None,
-        at: Default::default(),
-    };
+    let flag = || BitMeaning::Flag { inverted: false };
+    let bit = |offset| BitFieldEntry::new(format_compact!("Bit {offset}"), offset, 1, flag());
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }
 
