@@ -1,6 +1,6 @@
 //! Reads a register table, one top-level key at a time.
 
-use super::at::{At, Entries};
+use super::at::At;
 use super::by_name::ByName;
 use super::definitions::Definitions;
 use super::format::{DeviceTable, OptionTable};
@@ -8,7 +8,6 @@ use super::in_use::InUse;
 use super::machine_budget::MachineBudget;
 use super::objects::Dictionary;
 use super::read::Read;
-use super::repeats::Repeats;
 use super::rows::Rows;
 use super::tree::{Node, Reader};
 use super::{
@@ -203,22 +202,14 @@ impl<'a> Table<'a> {
             bits: ByName::new(self.named(reader, "bits")),
             ..Definitions::default()
         };
-        let spaces: Vec<(At<String>, format::SpaceTable)> = self.named(reader, "spaces");
-        self.spaces.clone_from(&spaces);
-        let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
-        let spaces = Entries(spaces.into_iter().map(at).collect());
+        self.spaces = self.named(reader, "spaces");
         let defaults = self.node("defaults").and_then(|node| defaults::read(reader, node));
-        windows::mention(reader, &spaces);
+        windows::mention(reader, &self.spaces);
         Rows {
-            repeats: Repeats::new(defaults.as_ref()),
-            definitions,
-            spaces: spaces::read(reader, &spaces),
-            modbus: spaces::modbus_tables(reader, &spaces),
+            spaces: spaces::read(reader, &self.spaces),
+            modbus: spaces::modbus_tables(reader, &self.spaces),
             buses,
-            defaults,
-            numbered: Vec::new(),
-            allowed: Vec::new(),
-            summaries: Vec::new(),
+            ..Rows::new(definitions, defaults)
         }
     }
 

@@ -51,6 +51,21 @@ pub(super) struct Named<'k> {
 }
 
 impl Rows {
+    /// Creates the state for rows on all buses, without spaces.
+    pub fn new(definitions: Definitions, defaults: Option<Row>) -> Self {
+        Rows {
+            repeats: Repeats::new(defaults.as_ref()),
+            definitions,
+            spaces: Vec::new(),
+            modbus: Vec::new(),
+            buses: Buses::ALL,
+            defaults,
+            numbered: Vec::new(),
+            allowed: Vec::new(),
+            summaries: Vec::new(),
+        }
+    }
+
     /// Returns the row with the defaults of its chapter and of the file. Returns the row unchanged if the budget is too small for
     /// the defaults.
     pub fn complete(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, chapter: Option<&Row>) -> Row {

@@ -2,7 +2,7 @@
 
 use compact_str::{format_compact, CompactString};
 
-use super::at::{At, Entries, FlagOr};
+use super::at::{At, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
 use super::tree::Reader;
 use super::windows::{self, Window};
@@ -62,8 +62,8 @@ pub(super) struct Numbers {
 }
 
 /// Reads the spaces of a table.
-pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<Space> {
-    tables.iter().map(|(name, table)| space(reader, name, &table.value)).collect()
+pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &[(At<String>, SpaceTable)]) -> Vec<Space> {
+    tables.iter().map(|(name, table)| space(reader, name, table)).collect()
 }
 
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
@@ -93,9 +93,9 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
 
 /// Returns the Modbus requests that the device supports, according to the Modbus rules of the spaces. Reports spaces
 /// whose rules contradict each other.
-pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
+pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &[(At<String>, SpaceTable)]) -> Vec<ModbusTable> {
     let mut found: Vec<ModbusTable> = Vec::new();
-    for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {
+    for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.modbus.as_ref()?))) {
         if rule.functions.is_none() && rule.max_read.is_none() && rule.max_write.is_none() && rule.split.is_none() {
             continue;
         }

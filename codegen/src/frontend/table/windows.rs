@@ -1,6 +1,6 @@
 //! Reads windows: items through which the driver accesses the values of a space by register number.
 
-use super::at::{At, Entries, TextOr};
+use super::at::{At, TextOr};
 use super::buses;
 use super::format::{IndirectRule, SpaceTable, WindowTable};
 use super::notation;
@@ -86,8 +86,8 @@ fn side(
 }
 
 /// Adds the names of the items and procedures that windows use.
-pub(super) fn mention(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) {
-    let rules = tables.iter().flat_map(|(_, table)| table.value.indirect.iter().flat_map(|rules| &rules.0));
+pub(super) fn mention(reader: &mut Reader<'_, '_>, tables: &[(At<String>, SpaceTable)]) {
+    let rules = tables.iter().flat_map(|(_, table)| table.indirect.iter().flat_map(|rules| &rules.0));
     for rule in rules {
         reader.mention(&rule.write_address, ITEM);
         reader.mention(&rule.procedure, "procedure");

@@ -83,17 +83,7 @@ impl Patch {
 
     /// Returns the state that is needed to add the facts of rows to items.
     pub(super) fn filler(&self) -> Rows {
-        Rows {
-            definitions: self.definitions.clone(),
-            spaces: Vec::new(),
-            modbus: Vec::new(),
-            buses: Buses::ALL,
-            defaults: None,
-            numbered: Vec::new(),
-            allowed: Vec::new(),
-            summaries: Vec::new(),
-            repeats: Repeats::new(None),
-        }
+        Rows::new(self.definitions.clone(), None)
     }
 }
 
