@@ -79,25 +79,26 @@ fn position(names: &[&str], key: &str) -> Option<usize> {
     names.iter().position(|name| name.eq_ignore_ascii_case(key))
 }
 
-const FILE_INFO: [&str; 12] = [
-    "FileName",
-    "FileVersion",
-    "FileRevision",
-    "EDSVersion",
-    "Description",
-    "CreationTime",
-    "CreationDate",
-    "CreatedBy",
-    "ModificationTime",
-    "ModificationDate",
-    "ModifiedBy",
-    "LastEDS",
-];
-
 fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
-    let mut seen = [None; FILE_INFO.len()];
+    let header = &mut device.header;
+    let fields = [
+        ("FileName", &mut header.file_name),
+        ("FileVersion", &mut header.file_version),
+        ("FileRevision", &mut header.file_revision),
+        ("EDSVersion", &mut header.format_version),
+        ("Description", &mut header.description),
+        ("CreationTime", &mut header.creation_time),
+        ("CreationDate", &mut header.creation_date),
+        ("CreatedBy", &mut header.created_by),
+        ("ModificationTime", &mut header.modification_time),
+        ("ModificationDate", &mut header.modification_date),
+        ("ModifiedBy", &mut header.modified_by),
+        ("LastEDS", &mut header.last_eds),
+    ];
+    let names = fields.each_ref().map(|(name, _)| *name);
+    let mut seen = [None; 12];
     for ref entry in reader.doc.entries_of(sections) {
-        let Some(which) = position(&FILE_INFO, reader.doc.key(entry)) else {
+        let Some(which) = position(&names, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
         };
@@ -111,11 +112,11 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
             _ => true,
         };
         if !form_ok && !text.is_empty() {
-            header_format(reader, entry, which);
+            header_format(reader, entry, names[which], which);
         }
-        *header_field(&mut device.header, which) = text.into();
+        *fields[which].1 = text.into();
     }
-    missing(reader, sections, &FILE_INFO, &seen, &[0, 1, 2]);
+    missing(reader, sections, &names, &seen, &[0, 1, 2]);
     old_version(reader, sections, &device.header, seen[3].as_ref());
 }
 
@@ -134,31 +135,14 @@ fn missing(
     }
 }
 
-fn header_field(header: &mut Header, which: usize) -> &mut CompactString {
-    match which {
-        0 => &mut header.file_name,
-        1 => &mut header.file_version,
-        2 => &mut header.file_revision,
-        3 => &mut header.format_version,
-        4 => &mut header.description,
-        5 => &mut header.creation_time,
-        6 => &mut header.creation_date,
-        7 => &mut header.created_by,
-        8 => &mut header.modification_time,
-        9 => &mut header.modification_date,
-        10 => &mut header.modified_by,
-        _ => &mut header.last_eds,
-    }
-}
-
-fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
+fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, name: &str, which: usize) {
     let expected = match which {
         1 | 2 => "an integer from 0 to 255",
         3 => "a version of the form x.y, such as 4.0",
         5 | 8 => "a time of the form hh:mm with AM or PM, such as 09:30AM",
         _ => "a date of the form mm-dd-yyyy, such as 12-31-2020",
     };
-    let message = format!("{} is not {expected}", FILE_INFO[which]);
+    let message = format!("{name} is not {expected}");
     let span = reader.doc.value_span(entry);
     reader.diagnostics.push(codes::HEADER_FORMAT.at(span, message).label("kept as text"));
 }
