@@ -2,42 +2,26 @@
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
-    Catalog, Device, Group, GroupKind, IoData, Module, Numbers, ProfinetSettings, Submodule, SubmoduleUse,
+    Catalog, Device, Group, GroupKind, IoData, IoLengths, Module, Numbers, ProfinetSettings, Submodule, SubmoduleUse,
 };
 use crate::text::count_of;
 
 /// A limit in bytes, and the device that has this limit, as a position in the catalog.
 type Limit = Option<(u32, usize)>;
 
-/// The lowest limits of all devices that accept a module or submodule.
-#[derive(Clone, Copy, Default)]
-struct Limits {
-    input: Limit,
-    output: Limit,
-    data: Limit,
-    record: Limit,
+/// The lowest limits of all devices that accept a module or submodule: for inputs, outputs, their sum, and a record.
+type Limits = [Limit; 4];
+
+fn limits_of(settings: &ProfinetSettings, device: usize) -> Limits {
+    let IoLengths { input, output, data } = settings.max_lengths;
+    let [input, output, data] = [input, output, data].map(|bytes| Some((bytes?.into(), device)));
+    [input, output, data, Some((settings.max_record_size, device))]
 }
 
-impl Limits {
-    fn of(settings: &ProfinetSettings, device: usize) -> Self {
-        let limit = |bytes: Option<u16>| bytes.map(|bytes| (u32::from(bytes), device));
-        Limits {
-            input: limit(settings.max_lengths.input),
-            output: limit(settings.max_lengths.output),
-            data: limit(settings.max_lengths.data),
-            record: Some((settings.max_record_size, device)),
-        }
-    }
-
-    /// Replaces each limit with the corresponding limit of `other` if that limit is lower, or if no limit is set.
-    fn narrow(&mut self, other: Limits) {
-        let smaller = |one: Limit, other: Limit| [one, other].into_iter().flatten().min();
-        *self = Limits {
-            input: smaller(self.input, other.input),
-            output: smaller(self.output, other.output),
-            data: smaller(self.data, other.data),
-            record: smaller(self.record, other.record),
-        };
+/// Replaces each limit with the corresponding limit in `others` if that limit is lower, or if no limit is set.
+fn narrow(limits: &mut Limits, others: Limits) {
+    for (limit, other) in limits.iter_mut().zip(others) {
+        *limit = [*limit, other].into_iter().flatten().min();
     }
 }
 
@@ -47,10 +31,10 @@ pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
     let mut of_submodules = vec![Limits::default(); submodules.len()];
     for (position, device) in devices.iter().enumerate() {
         let Some(settings) = &device.profinet else { continue };
-        let of_device = Limits::of(settings, position);
+        let of_device = limits_of(settings, position);
         for module in &device.modules {
             if let Some(limits) = of_modules.get_mut(module.module.0 as usize) {
-                limits.narrow(of_device);
+                narrow(limits, of_device);
             }
         }
         narrow_uses(&device.submodules, of_device, &mut of_submodules);
@@ -60,15 +44,15 @@ pub(super) fn check(catalog: &Catalog, diagnostics: &mut Diagnostics) {
         narrow_uses(&module.submodules, limits, &mut of_submodules);
         lengths(module, limits, catalog, diagnostics);
     }
-    for (submodule, limits) in submodules.iter().zip(of_submodules) {
-        records(submodule, limits.record, devices, diagnostics);
+    for (submodule, [.., record]) in submodules.iter().zip(of_submodules) {
+        records(submodule, record, devices, diagnostics);
     }
 }
 
 fn narrow_uses(uses: &[SubmoduleUse], of_owner: Limits, of_submodules: &mut [Limits]) {
     for submodule in uses {
         if let Some(limits) = of_submodules.get_mut(submodule.submodule.0 as usize) {
-            limits.narrow(of_owner);
+            narrow(limits, of_owner);
         }
     }
 }
@@ -83,10 +67,11 @@ fn lengths(module: &Module, limits: Limits, catalog: &Catalog, diagnostics: &mut
         input = input.saturating_add(bytes(&submodule.input));
         output = output.saturating_add(bytes(&submodule.output));
     }
+    let [of_input, of_output, of_data, _] = limits;
     let sums = [
-        (input, limits.input, "inputs"),
-        (output, limits.output, "outputs"),
-        (input.saturating_add(output), limits.data, "inputs and outputs"),
+        (input, of_input, "inputs"),
+        (output, of_output, "outputs"),
+        (input.saturating_add(output), of_data, "inputs and outputs"),
     ];
     for (bytes, limit, what) in sums {
         let Some((limit, device)) = limit.filter(|&(limit, _)| bytes > limit) else { continue };
