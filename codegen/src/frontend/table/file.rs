@@ -12,7 +12,7 @@ use super::rows::Rows;
 use super::tree::{Node, Reader};
 use super::{
     at, chapters, code_tables, composites, defaults, device, ethercat, format, frames, given, images, machines,
-    numbered, process, references, spaces, summary, tree, windows,
+    numbered, process, references, spaces, summary, tree,
 };
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Buses, Catalog, Device};
@@ -204,7 +204,6 @@ impl<'a> Table<'a> {
         };
         self.spaces = self.named(reader, "spaces");
         let defaults = self.node("defaults").and_then(|node| defaults::read(reader, node));
-        windows::mention(reader, &self.spaces);
         Rows {
             spaces: spaces::read(reader, &self.spaces),
             modbus: spaces::modbus_tables(reader, &self.spaces),

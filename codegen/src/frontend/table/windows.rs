@@ -26,6 +26,8 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Space
 }
 
 fn window(reader: &mut Reader<'_, '_>, name: &At<String>, rule: &IndirectRule) -> Window {
+    reader.mention(&rule.write_address, ITEM);
+    reader.mention(&rule.procedure, "procedure");
     let sides = [(&rule.read, false), (&rule.write, true)];
     let [read, write] = sides.map(|(given, is_write)| side(reader, name, rule, given.as_ref()?, is_write));
     if rule.read.is_none() && rule.write.is_none() {
@@ -54,9 +56,11 @@ fn side(
 ) -> Option<WindowSide> {
     let plain = WindowTable::default();
     let (side, value) = match &given.value {
-        TextOr::Text(value) => (&plain, Some(value)),
-        TextOr::Table(side) => (&**side, side.value.as_ref().map(|value| &value.value)),
+        TextOr::Text(item) => (&plain, Some(At { value: item.clone(), start: given.start, end: given.end })),
+        TextOr::Table(side) => (&**side, side.value.clone()),
     };
+    reader.mention(side.address.iter().chain(&value), ITEM);
+    reader.mention(&side.procedure, "procedure");
     let number = side.address.as_ref().or(rule.write_address.as_ref());
     let (Some(number), Some(value)) = (number, value) else {
         let message = "a window needs an item for the number (`write_address`, or `address`), and one for the value";
@@ -76,33 +80,13 @@ fn side(
     let procedure = side.procedure.as_ref().or(rule.procedure.as_ref());
     Some(WindowSide {
         number: reader.reference(number),
-        value: value.as_str().into(),
+        value: value.value.as_str().into(),
         number_first: order,
         clears: side.clears.or(rule.clears),
         wait: side.wait.or(rule.wait),
         timeout: side.timeout.or(rule.timeout),
         procedure: procedure.map(|procedure| procedure.value.as_str().into()),
     })
-}
-
-/// Adds the names of the items and procedures that windows use.
-pub(super) fn mention(reader: &mut Reader<'_, '_>, tables: &[(At<String>, SpaceTable)]) {
-    let rules = tables.iter().flat_map(|(_, table)| table.indirect.iter().flat_map(|rules| &rules.0));
-    for rule in rules {
-        reader.mention(&rule.write_address, ITEM);
-        reader.mention(&rule.procedure, "procedure");
-        for given in [&rule.read, &rule.write].into_iter().flatten() {
-            match &given.value {
-                TextOr::Text(name) => {
-                    reader.mention([&At { value: name.clone(), start: given.start, end: given.end }], ITEM);
-                }
-                TextOr::Table(side) => {
-                    reader.mention(side.address.iter().chain(&side.value), ITEM);
-                    reader.mention(&side.procedure, "procedure");
-                }
-            }
-        }
-    }
 }
 
 /// Returns the windows through which the register number `first` of the space is accessed on `buses`.
