@@ -77,9 +77,8 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
         let Some(one) = fields.iter().take(at).find(clashes) else { continue };
         let message = format!("{} and {} of `{}` overlap", called(one), called(other), brief(&definition.name));
         let found = codes::BITS_OVERLAP.at(other.at.0.or(definition.origin.span), message);
-        diagnostics.push(
-            found.help("add `when`, `since`, `until` or `models` to each field if the bits have several meanings"),
-        );
+        let help = "add `when`, `since`, `until` or `models` to each field if the bits have several meanings";
+        diagnostics.push(found.help(help));
     }
 }
 

@@ -54,9 +54,8 @@ fn possible(context: &Context<'_>, condition: &Condition, span: Span, diagnostic
         };
         let message = format!("the condition `{}` = {value} is never true: {value} {why}", brief(&condition.item));
         let found = codes::UNNAMED_VALUE.at(span, message).note_at(item.origin.span, "the item of the condition");
-        diagnostics.push(
-            found.help("correct the value in the condition, or name the value in its enumeration if the manual does"),
-        );
+        let help = "correct the value in the condition, or name the value in its enumeration if the manual does";
+        diagnostics.push(found.help(help));
     }
 }
 

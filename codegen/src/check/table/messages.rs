@@ -91,9 +91,8 @@ fn replies_of_others(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
              the request of `{name}`"
         );
         let found = both(framed, other, &codes::REPLY_OF_ANOTHER, message);
-        diagnostics.push(
-            found.help("compare both tables with the manual's text, because one was probably copied from the other"),
-        );
+        let help = "compare both tables with the manual's text, because one was probably copied from the other";
+        diagnostics.push(found.help(help));
     }
 }
 
@@ -139,9 +138,8 @@ fn requests_alike(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
         let names = (brief(&other.message.name), brief(&framed.message.name));
         let message = format!("the requests `{}` and `{}` can have the same bytes", names.0, names.1);
         let found = both(framed, other, &codes::MESSAGES_ALIKE, message);
-        diagnostics.push(
-            found.help("correct a constant, or add `after` if an earlier message decides which request is meant"),
-        );
+        let help = "correct a constant, or add `after` if an earlier message decides which request is meant";
+        diagnostics.push(found.help(help));
     }
 }
 
@@ -168,9 +166,8 @@ fn odd_request(all: &[Framed<'_>], diagnostics: &mut Diagnostics) {
          {common} in this byte"
     );
     let found = report(framed, &codes::ODD_REQUEST, message);
-    diagnostics.push(
-        found.help("record in a `doubt` whether the constant is an exception or a misprint, and allow this code"),
-    );
+    let help = "record in a `doubt` whether the constant is an exception or a misprint, and allow this code";
+    diagnostics.push(found.help(help));
 }
 
 /// Compares the state-command matrices with the states in which the device accepts each message.

@@ -181,9 +181,8 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &[bool], devic
         if let Some(group) = device.groups.first() {
             let found =
                 codes::NOT_LISTED.at(group.origin.span, "the object lists of the file are empty").label("first object");
-            reader.diagnostics.push(
-                found.help("list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
-            );
+            let help = "list the objects in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]";
+            reader.diagnostics.push(found.help(help));
         }
         return;
     }

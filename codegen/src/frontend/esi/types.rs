@@ -184,9 +184,8 @@ impl<'a> Types<'a> {
         }
         let message = format!("the definition of the data type `{}` contains only its name", brief(&ty.name.text));
         let found = codes::UNRESOLVED_TYPE.at(ty.name.span.or(ty.origin.span), message).label("kept as raw bytes");
-        reader
-            .diagnostics
-            .push(found.help("add a BaseType, ArrayInfo, SubItems or EnumInfos, or use the name of a basic type"));
+        let help = "add a BaseType, ArrayInfo, SubItems or EnumInfos, or use the name of a basic type";
+        reader.diagnostics.push(found.help(help));
         (Shape::Alias(Type::Opaque(ty.code)), ty.bits)
     }
 
@@ -486,9 +485,8 @@ fn check_layout(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field])
         let name = brief(&field.name);
         let message = format!("the sub-item `{name}` ends at bit {}, but the data type has {bits} bits", end(field));
         let found = codes::SUB_ITEM_PLACE.at(raw.origin.span, message).label("kept unchanged");
-        reader
-            .diagnostics
-            .push(found.help("increase BitSize of the data type, or correct BitOffs or BitSize of the sub-item"));
+        let help = "increase BitSize of the data type, or correct BitOffs or BitSize of the sub-item";
+        reader.diagnostics.push(found.help(help));
     }
 }
 

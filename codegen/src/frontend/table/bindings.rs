@@ -87,9 +87,8 @@ impl Rows {
         if row.count.is_some() && count > 1 && !key.value.contains("{n") {
             let message = format!("all {count} items of the row have the name `{}`", brief(&key.value));
             let found = codes::TABLE_VALUE.at(reader.span(key), message);
-            reader
-                .diagnostics
-                .push(found.help("write `{n}`, which counts from 0, or `{n+1}`, which counts from 1, in the name"));
+            let help = "write `{n}`, which counts from 0, or `{n+1}`, which counts from 1, in the name";
+            reader.diagnostics.push(found.help(help));
         }
     }
 
@@ -344,9 +343,8 @@ impl Rows {
         if Buses::from(objects).is_empty() {
             let message = "the row has an object, but is on neither CANopen nor EtherCAT";
             let found = codes::TABLE_PLACE.at(reader.span(at), message);
-            reader
-                .diagnostics
-                .push(found.help("add CANopen or EtherCAT to `buses` of the row, of the defaults or of the device"));
+            let help = "add CANopen or EtherCAT to `buses` of the row, of the defaults or of the device";
+            reader.diagnostics.push(found.help(help));
         }
         ObjectBuses { canopen: objects.canopen || !objects.coe, ..objects }
     }

@@ -1,14 +1,14 @@
 //! Applies the table `defaults` to rows.
 
 use super::document::{Node, Value};
-use super::format::Row;
+use super::format::{key, Row};
 use super::tree::Reader;
 use crate::diagnostics::codes;
 
-/// Declares the keys of `defaults`, each with the field that it sets in a row.
+/// Declares the keys of `defaults`. A field of a row has the key after `=` if this key is not its name.
 macro_rules! inherited {
-    ($($key:literal $field:ident)*) => {
-        const INHERITED: &[&str] = &[$($key),*];
+    ($($field:ident $(= $key:literal)?)*) => {
+        const INHERITED: &[&str] = &[$(key!($field $($key)?)),*];
 
         impl Row {
             /// Returns the row, with the keys of `defaults` in place of missing keys.
@@ -21,26 +21,8 @@ macro_rules! inherited {
 }
 
 inherited! {
-    "type" ty
-    "access" access
-    "pdo" pdo
-    "unit" unit
-    "scale" scale
-    "offset" offset
-    "na" na
-    "save" save
-    "effective" effective
-    "models" models
-    "since" since
-    "until" until
-    "needs" needs
-    "buses" buses
-    "per_axis" per_axis
-    "hidden" hidden
-    "order" order
-    "swap" swap
-    "length" length
-    "pdi" pdi
+    ty = "type" access pdo unit scale offset na save effective models since until needs buses per_axis hidden order swap
+    length pdi
 }
 
 /// Reads the table `[defaults]`.

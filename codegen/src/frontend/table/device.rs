@@ -91,9 +91,8 @@ fn sections(reader: &mut Reader<'_, '_>, table: &ManualTable) -> Vec<ManualSecti
             Err(_) => {
                 let message = format!("`{}` is neither a page number nor a line number", brief(&key.value));
                 let found = codes::TABLE_VALUE.at(reader.span(key), message);
-                reader
-                    .diagnostics
-                    .push(found.help("write the number of the first page or line: `2170 = \"Motion parameters\"`"));
+                let help = "write the number of the first page or line: `2170 = \"Motion parameters\"`";
+                reader.diagnostics.push(found.help(help));
             }
         }
     }

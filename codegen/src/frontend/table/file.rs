@@ -24,8 +24,8 @@ pub const SCHEMA: &str = include_str!("../../../schema/table.json");
 /// Supported version of the format.
 const VERSION: u32 = 1;
 
-/// Top-level keys of a table, overlay or profile, except `doubts`.
-const KEYS: [&str; 25] = [
+/// Top-level keys of a table, overlay or profile.
+const KEYS: [&str; 26] = [
     "lexibus",
     "device",
     "overlay",
@@ -51,6 +51,7 @@ const KEYS: [&str; 25] = [
     "framing",
     "messages",
     "frames",
+    "doubts",
 ];
 
 /// Reads the device that a table describes. `chosen` contains the choices for the options of the table.
@@ -120,11 +121,9 @@ impl<'a> Table<'a> {
     /// Parses a file, and replaces each text `$name` with the value of the chosen or default choice of the option `name`.
     pub(super) fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
         let mut parts: Vec<_> = tree::entries(reader.parse()?).map(|(key, node)| (key, Some(node))).collect();
-        let known = || KEYS.into_iter().chain(["doubts"]);
         for (key, node) in &mut parts {
-            if !known().any(|known| known == key.value) {
-                let all: Vec<&str> = known().collect();
-                reader.unknown_key(&key.value, &all, reader.span(key));
+            if !KEYS.contains(&key.value.as_str()) {
+                reader.unknown_key(&key.value, &KEYS, reader.span(key));
                 *node = None;
             }
         }

@@ -212,7 +212,7 @@ macro_rules! field_row {
         }
     };
 }
-pub(super) use field_row;
+pub(super) use {field_row, key};
 
 /// Text, or a list of texts.
 pub type Words = OneOrMany<String>;
