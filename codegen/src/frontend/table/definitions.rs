@@ -38,7 +38,7 @@ pub(super) struct Definitions {
 }
 
 /// Name, documentation, ambiguities and origin of a definition.
-struct About<'t> {
+pub(super) struct About<'t> {
     name: CompactString,
     doc: Option<&'t str>,
     cite: Option<String>,
@@ -48,7 +48,7 @@ struct About<'t> {
 
 impl About<'_> {
     /// Describes a definition that is inside of a row or bit, and has only a name.
-    fn inline(name: CompactString, origin: Origin) -> Self {
+    pub fn inline(name: CompactString, origin: Origin) -> Self {
         About { name, doc: None, cite: None, doubts: Doubts::new(), origin }
     }
 }
@@ -131,30 +131,6 @@ impl Definitions {
         }
     }
 
-    /// Returns the type of an enumeration that a row defines.
-    pub fn inline_values(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        name: &str,
-        origin: Origin,
-        base: Type,
-        values: &ValueEntries,
-    ) -> Type {
-        Type::Named(self.enumeration(reader, About::inline(name.into(), origin), base, false, values))
-    }
-
-    /// Returns the type of a bit field that a row defines.
-    pub fn inline_bits(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        name: &str,
-        origin: Origin,
-        base: Type,
-        bits: &BitEntries,
-    ) -> Type {
-        Type::Named(self.bit_field(reader, About::inline(name.into(), origin), base, bits, None))
-    }
-
     fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
         let id = TypeId(self.types.len() as u32);
         self.types.push(TypeDef {
@@ -166,7 +142,7 @@ impl Definitions {
         id
     }
 
-    fn enumeration(
+    pub fn enumeration(
         &mut self,
         reader: &mut Reader<'_, '_>,
         mut about: About<'_>,
@@ -218,7 +194,7 @@ impl Definitions {
         self.push(reader, about, base, Shape::Enumeration { base, values, closed })
     }
 
-    fn bit_field(
+    pub fn bit_field(
         &mut self,
         reader: &mut Reader<'_, '_>,
         mut about: About<'_>,

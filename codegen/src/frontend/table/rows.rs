@@ -3,7 +3,7 @@
 use compact_str::CompactString;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
-use super::definitions::{DefinitionKind, Definitions};
+use super::definitions::{About, DefinitionKind, Definitions};
 use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::ITEM;
@@ -162,12 +162,13 @@ impl Rows {
             let message = "the row has both `bits` and `enum`, which exclude each other";
             reader.report(&codes::TABLE_VALUE, reader.span(values), message);
         }
+        let about = || About::inline(named.name.into(), origin);
         let (kind, name) = match (&row.bits, &row.values) {
             (Some(At { value: TextOr::Table(table), .. }), _) => {
-                return Some(self.definitions.inline_bits(reader, named.name, origin, base, table));
+                return Some(Type::Named(self.definitions.bit_field(reader, about(), base, table, None)));
             }
             (None, Some(At { value: TextOr::Table(table), .. })) => {
-                return Some(self.definitions.inline_values(reader, named.name, origin, base, table));
+                return Some(Type::Named(self.definitions.enumeration(reader, about(), base, false, table)));
             }
             _ => definition(row).filter(|(_, name)| !name.value.is_empty())?,
         };
