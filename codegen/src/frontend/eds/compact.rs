@@ -107,8 +107,7 @@ fn apply(reader: &mut Reader<'_, '_>, item: &mut Item, refinement: Refinement, e
     match refinement {
         Refinement::Name => reader.name(Some(entry), &mut item.name, &mut item.at.name),
         Refinement::Value => {
-            let value = reader.typed(Some(entry), item.ty, Role::Value);
-            configured(item).value = value;
+            configured(item).value = reader.typed(Some(entry), item.ty, Role::Value);
             item.at.others.configured = reader.doc.value_span(entry);
             reader.take_comments(&mut item.extensions);
         }

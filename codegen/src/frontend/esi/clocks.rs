@@ -25,9 +25,7 @@ fn mode<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<ClockMode> {
         match tag.name {
             "Name" => mode.name = reader.text(&tag)?.compact(),
             "Desc" => mode.description = reader.text(&tag)?.compact(),
-            "AssignActivate" => {
-                mode.assign_activate = reader.number(&tag, "register value")?.unwrap_or(0);
-            }
+            "AssignActivate" => mode.assign_activate = reader.number(&tag, "register value")?.unwrap_or(0),
             "CycleTimeSync0" => mode.cycle_sync0 = time(reader, &tag)?,
             "ShiftTimeSync0" => mode.shift_sync0 = time(reader, &tag)?,
             "CycleTimeSync1" => mode.cycle_sync1 = time(reader, &tag)?,

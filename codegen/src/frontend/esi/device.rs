@@ -71,10 +71,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parts: &mut Parts<'a>) 
         "RxPdo" | "TxPdo" => parts.pdos.read(reader, tag)?,
         "Mailbox" => settings.mailbox = Some(Box::new(mailbox::read(reader, tag)?)),
         "Dc" => settings.clocks = Some(Box::new(clocks::read(reader, tag)?)),
-        "Slots" => {
-            let rules = slots::read(reader, tag, &mut device.slots)?;
-            settings.slots = Some(Box::new(rules));
-        }
+        "Slots" => settings.slots = Some(Box::new(slots::read(reader, tag, &mut device.slots)?)),
         "ESC" => eeprom::registers(reader, tag, settings)?,
         "Eeprom" => settings.eeprom = Some(Box::new(eeprom::read(reader, tag)?)),
         "Image16x14" | "ImageFile16x14" if settings.picture.is_none() => {

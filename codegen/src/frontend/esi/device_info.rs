@@ -17,10 +17,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, settings: 
                 settings.identification_in_al_status = reader.flag(&given);
             }
             "EtherCATController" => controller(reader, &tag, settings.controller.get_or_insert_default())?,
-            "StationAliasSupported" => {
-                let given = reader.text(&tag)?;
-                settings.station_alias = reader.optional_flag(&given);
-            }
+            "StationAliasSupported" => settings.station_alias = reader.flag_of(&tag)?,
             "Port" | "ExecutionUnit" | "DeviceFeature" => reader.keep(&tag)?,
             "VendorSpecific" => reader.vendor_specific(&tag)?,
             _ => reader.unknown(&tag)?,

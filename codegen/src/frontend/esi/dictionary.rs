@@ -30,8 +30,7 @@ impl<'a> Dictionary<'a> {
                     self.types.last_mut().map_or(Ok(()), |last| data_type::read(reader, tag, last))
                 })?,
                 "Objects" => reader.each(&list, "Object", |reader, tag| {
-                    let object = object::read(reader, tag, &mut self.subs)?;
-                    self.objects.push(object);
+                    self.objects.push(object::read(reader, tag, &mut self.subs)?);
                     Ok(())
                 })?,
                 "UnitTypes" => self.unit_types(reader, &list)?,

@@ -39,14 +39,8 @@ fn category<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<Option<(u
             "CatNo" => number = reader.number(&tag, "category number")?,
             "Data" => data = octets(reader, &tag)?,
             "DataString" => data = reader.text(&tag)?.text.as_bytes().to_vec(),
-            "DataUINT" => {
-                let value = reader.number::<u16>(&tag, "16-bit number")?;
-                data = value.unwrap_or(0).to_le_bytes().to_vec();
-            }
-            "DataUDINT" => {
-                let value = reader.number::<u32>(&tag, "32-bit number")?;
-                data = value.unwrap_or(0).to_le_bytes().to_vec();
-            }
+            "DataUINT" => data = reader.number(&tag, "16-bit number")?.unwrap_or(0u16).to_le_bytes().to_vec(),
+            "DataUDINT" => data = reader.number(&tag, "32-bit number")?.unwrap_or(0u32).to_le_bytes().to_vec(),
             _ => reader.unknown(&tag)?,
         }
     }

@@ -58,8 +58,8 @@ pub(super) fn read<'a>(
                 }
                 flags.more().safety = (!text.is_empty()).then(|| text.into());
             }
-            "Backup" => flags.backup = number_as_flag(reader, &tag)?,
-            "Setting" => flags.setting = number_as_flag(reader, &tag)?,
+            "Backup" => flags.backup = reader.flag_of(&tag)?,
+            "Setting" => flags.setting = reader.flag_of(&tag)?,
             "SdoAccess" | "Transition" | "Attribute" => {
                 let Some(tool) = tool.as_deref_mut() else {
                     reader.note_text(&tag)?;
@@ -139,11 +139,6 @@ fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
         }
     }
     Some(mappable).filter(|_| !given.is_empty())
-}
-
-fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>) -> Read<Option<bool>> {
-    let given = reader.text(tag)?;
-    Ok(reader.optional_flag(&given))
 }
 
 fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {

@@ -271,8 +271,7 @@ impl<'a> Builder<'_, 'a> {
             if !reader.derive(Cost::text(flags.weight() + raw.flags.weight()), sub.origin.span) {
                 break;
             }
-            let item = self.plain(reader, Binding::coe(raw.index.unwrap_or(0), sub_index), ty, flags, &raw.flags, sub);
-            group.items.push(item);
+            group.items.push(self.plain(reader, raw, sub_index, ty, flags, sub));
             next += 1;
         }
     }
@@ -304,9 +303,7 @@ impl<'a> Builder<'_, 'a> {
             }
             // Sub-index 0 contains the number of the other sub-indices.
             let ty = if sub_index == 0 { Type::Unsigned(8) } else { Type::Opaque(None) };
-            let item =
-                self.plain(reader, Binding::coe(raw.index.unwrap_or(0), sub_index), ty, &raw.flags, &raw.flags, sub);
-            group.items.push(item);
+            group.items.push(self.plain(reader, raw, sub_index, ty, &raw.flags, sub));
         }
         self.keep_whole(raw, group);
         ObjectCode::Record
@@ -316,18 +313,17 @@ impl<'a> Builder<'_, 'a> {
     fn plain(
         &mut self,
         reader: &mut Reader<'_, '_>,
-        binding: Binding,
+        raw: &RawObject<'a>,
+        sub_index: u8,
         ty: Type,
         flags: &Flags,
-        object: &Flags,
         sub: &mut RawSub<'a>,
     ) -> Item {
-        let mut item = Item::new(binding);
-        let sub_index = item.object().map(|(_, sub_index)| sub_index);
+        let mut item = Item::new(Binding::coe(raw.index.unwrap_or(0), sub_index));
         (item.name, item.at.name, item.origin) = (sub.name.compact(), sub.name.span, sub.origin);
         item.ty = ty;
         item.extensions = std::mem::take(&mut sub.extensions);
-        self.flags(&mut item, flags, object, sub_index);
+        self.flags(&mut item, flags, &raw.flags, Some(sub_index));
         self.info(reader, &mut item, &sub.info, None);
         item
     }

@@ -141,6 +141,12 @@ impl<'a> Reader<'a, '_> {
         Ok(self.int(&given, what))
     }
 
+    /// Reads an element that contains a Boolean value. Returns `None` if the element is empty.
+    pub fn flag_of(&mut self, tag: &Tag<'a>) -> Read<Option<bool>> {
+        let given = self.text(tag)?;
+        Ok(self.optional_flag(&given))
+    }
+
     /// Reads bytes in hexadecimal notation, ignoring white space. Returns `None` and reports the text if it contains any other
     /// character. Reports an odd number of digits, and reads the first byte from one digit.
     pub fn octets(&mut self, given: &Given<'_>) -> Option<Vec<u8>> {

@@ -40,9 +40,7 @@ pub(super) fn content<'a>(
             }
             "Name" => reader.name(&tag, &mut content.names)?,
             "Exclude" => pdo.excludes.extend(reader.number::<u16>(&tag, "index")?),
-            "ExcludedSm" => {
-                pdo.excluded_sync_managers.extend(reader.number::<u8>(&tag, "sync manager number")?);
-            }
+            "ExcludedSm" => pdo.excluded_sync_managers.extend(reader.number::<u8>(&tag, "sync manager number")?),
             "Entry" => {
                 let (entry, ty) = entry(reader, &tag, channel)?;
                 pdo.entries.push(entry);

@@ -135,10 +135,7 @@ fn module_ident<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, slot: &mut Slot)
 fn module_class<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, slot: &mut Slot) -> Read<()> {
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "Class" => {
-                let given = reader.text(&tag)?;
-                slot.fits.push(Fit::Class(given.compact()));
-            }
+            "Class" => slot.fits.push(Fit::Class(reader.text(&tag)?.compact())),
             "VendorId" | "Name" => reader.keep(&tag)?,
             "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag)?,
             _ => reader.unknown(&tag)?,
@@ -185,10 +182,7 @@ fn selection<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Compact
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
             "Name" => reader.name(&tag, &mut names)?,
-            "ModuleIdent" => {
-                let ident: Option<u32> = reader.number(&tag, "module ident number")?;
-                idents.extend(ident);
-            }
+            "ModuleIdent" => idents.extend(reader.number::<u32>(&tag, "module ident number")?),
             _ => reader.unknown(&tag)?,
         }
     }

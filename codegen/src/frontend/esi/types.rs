@@ -137,8 +137,7 @@ impl<'a> Types<'a> {
         let values = self.values.get_mut(at).map(std::mem::take).unwrap_or_default();
         if !values.is_empty() {
             let base = self.integer_base(reader, at, ty);
-            let values = values.into_iter().collect();
-            let shape = Shape::Enumeration { base, values, closed: false };
+            let shape = Shape::Enumeration { base, values: values.into_iter().collect(), closed: false };
             return (shape, ty.bits.or(base.bits()));
         }
         if !ty.dimensions.is_empty() {
@@ -340,15 +339,8 @@ impl<'a> Types<'a> {
 
     fn basic(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
         match type_name::basic(&given.text) {
-            Some((Basic::Type(ty), spelling)) => {
-                spelled(reader.diagnostics, spelling, given, ty);
-                ty
-            }
-            Some((known, _)) => self.make(&given.text, known),
-            None => {
-                unresolved(reader.diagnostics, given);
-                Type::Opaque(None)
-            }
+            Some((known @ (Basic::Bits(_) | Basic::Array(..)), _)) => self.make(&given.text, known),
+            found => basic_or_opaque(reader.diagnostics, given, found),
         }
     }
 
@@ -536,7 +528,11 @@ fn bit_array(width: u8) -> Shape {
 /// Returns the basic type for a type name that the file does not define, or raw bytes for an unknown name. Reports
 /// nonstandard and unknown names.
 pub(super) fn guessed(diagnostics: &mut Diagnostics, name: &Given<'_>) -> Type {
-    match type_name::basic(&name.text) {
+    basic_or_opaque(diagnostics, name, type_name::basic(&name.text))
+}
+
+fn basic_or_opaque(diagnostics: &mut Diagnostics, name: &Given<'_>, found: Option<(Basic, Spelling)>) -> Type {
+    match found {
         Some((Basic::Type(ty), spelling)) => {
             spelled(diagnostics, spelling, name, ty);
             ty

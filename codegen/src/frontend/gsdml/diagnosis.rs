@@ -178,7 +178,7 @@ impl<'a> Reader<'a, '_> {
         while let Some(tag) = self.child(list)? {
             match tag.name {
                 "UnitDiagTypeItem" | "ProfileUnitDiagTypeItem" => {
-                    catalog.unit_diagnoses.push(self.unit_diagnosis(&tag)?);
+                    catalog.unit_diagnoses.push(self.unit_diagnosis(&tag)?)
                 }
                 _ => self.unknown(&tag)?,
             }

@@ -11,10 +11,7 @@ impl<'a> Reader<'a, '_> {
     pub fn record_data_list(&mut self, list: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
         while let Some(tag) = self.child(list)? {
             match tag.name {
-                "ParameterRecordDataItem" => {
-                    let group = self.record(&tag, &mut submodule.menus)?;
-                    submodule.records.extend(group);
-                }
+                "ParameterRecordDataItem" => submodule.records.extend(self.record(&tag, &mut submodule.menus)?),
                 "F_ParameterRecordDataItem" => self.f_record(&tag, submodule)?,
                 _ => self.unknown(&tag)?,
             }

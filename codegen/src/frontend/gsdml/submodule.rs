@@ -98,9 +98,7 @@ impl<'a> Reader<'a, '_> {
                 "RecordDataList" => self.record_data_list(&tag, &mut submodule)?,
                 "ModuleInfo" => info = self.module_info(&tag)?,
                 "Graphics" => submodule.graphics = self.graphics(&tag)?,
-                "ApplicationRelations" => {
-                    self.application_relations(&tag, settings.as_deref_mut(), &mut submodule)?;
-                }
+                "ApplicationRelations" => self.application_relations(&tag, settings.as_deref_mut(), &mut submodule)?,
                 name if is_kept(name) => self.keep_as_attributes(&tag, &mut submodule.attributes)?,
                 _ => self.unknown(&tag)?,
             }
