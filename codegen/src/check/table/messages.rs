@@ -192,10 +192,7 @@ fn cells(number: u32, machine: &StateMachine, row: &CommandOutcomes, message: &M
         if is_stated == can {
             continue;
         }
-        let (stated, table) = match is_stated {
-            true => ("lists", "refuses"),
-            false => ("does not list", "accepts"),
-        };
+        let (stated, table) = if is_stated { ("lists", "refuses") } else { ("does not list", "accepts") };
         let (name, state, machine) = (brief(&message.name), brief(&cell.state), brief(&machine.name));
         let text = format!(
             "`accepted_in` of the message `{name}` {stated} the state `{state}`, but the matrix of `{machine}` states \

@@ -154,10 +154,7 @@ fn negated(text: &str) -> Number {
 
 fn unsigned(text: &str) -> Number {
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-        return match radix(digits, 16) {
-            Some(value) => Number::hex(value),
-            None => c_suffix(text),
-        };
+        return radix(digits, 16).map_or_else(|| c_suffix(text), Number::hex);
     }
     let Some(decimal) = radix(text, 10) else {
         let suffixed = hex_suffix(text);

@@ -363,9 +363,7 @@ fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
 fn connected_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
     let mut settings = device.commissioning.take().unwrap_or_else(|| Box::new(Commissioning::default()));
     for entry in lists::numbered(reader, sections, "NrOfEntries", &mut device.extensions) {
-        if let Some(module) = reader.unsigned(&entry, 0xFFFF) {
-            settings.connected_modules.push(module as u16);
-        }
+        settings.connected_modules.extend(reader.unsigned(&entry, 0xFFFF).map(|module| module as u16));
     }
     device.commissioning = Some(settings);
 }

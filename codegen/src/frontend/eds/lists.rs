@@ -17,9 +17,7 @@ pub(super) struct Lists {
 impl Lists {
     pub(super) fn read(&mut self, reader: &mut Reader<'_, '_>, list: List, sections: &[Section], device: &mut Device) {
         for entry in &numbered(reader, sections, "SupportedObjects", &mut device.extensions) {
-            if let Some(index) = reader.index_of(entry) {
-                self.listed.push((index, list, reader.doc.value_span(entry)));
-            }
+            self.listed.extend(reader.index_of(entry).map(|index| (index, list, reader.doc.value_span(entry))));
         }
         reader.take_comments(&mut device.extensions);
     }

@@ -31,9 +31,7 @@ pub(super) fn document(
     let root = reader.cursor.root()?;
     match root.name {
         "EtherCATInfo" | "EtherCATModule" => info::read(&mut reader, &root, description)?,
-        "EtherCATInfoList" => {
-            reader.each(&root, "EtherCATInfo", |reader, tag| info::read(reader, tag, description))?;
-        }
+        "EtherCATInfoList" => reader.each(&root, "EtherCATInfo", |reader, tag| info::read(reader, tag, description))?,
         "EtherCATDict" => dictionary_only(&mut reader, &root, description)?,
         "EtherCATDiag" => messages_only(&mut reader, &root, description)?,
         name => {

@@ -50,9 +50,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, descriptio
 
 fn read_list<'a>(reader: &mut Reader<'a, '_>, list: &Tag<'a>, description: &mut Description) -> Read<()> {
     match list.name {
-        "Groups" => {
-            reader.each(list, "Group", |reader, tag| family(reader, tag, description))?;
-        }
+        "Groups" => reader.each(list, "Group", |reader, tag| family(reader, tag, description))?,
         "Devices" => {
             reader.each(list, "Device", |reader, tag| {
                 let (device, other_files) = device::read(reader, tag)?;

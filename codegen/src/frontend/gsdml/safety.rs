@@ -81,9 +81,7 @@ impl<'a> Reader<'a, '_> {
         };
         while let Some(tag) = self.child(parent)? {
             match KNOWN.iter().find(|known| known.name == tag.name) {
-                Some(known) => {
-                    found.parameters.push(self.f_parameter(&tag, known)?);
-                }
+                Some(known) => found.parameters.push(self.f_parameter(&tag, known)?),
                 None => self.unknown(&tag)?,
             }
         }

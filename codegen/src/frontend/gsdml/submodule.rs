@@ -113,9 +113,7 @@ impl<'a> Reader<'a, '_> {
         submodule.records.shrink_to_fit();
         submodule.extensions = self.extensions_since(start);
         let mut fixed = self.numbers(&fixed);
-        if let Some(number) = self.unsigned16(&subslot, "subslot number") {
-            fixed.0.push((number, number));
-        }
+        fixed.0.extend(self.unsigned16(&subslot, "subslot number").map(|number| (number, number)));
         Ok((submodule, fixed))
     }
 

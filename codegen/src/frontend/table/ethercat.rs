@@ -27,9 +27,8 @@ pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, b
     let origin = reader.origin(table);
     device.doubts.extend(reader.doubts_of(settings_table, origin));
     for given in &settings_table.sync_managers {
-        if let Some(manager) = sync_manager(reader, given, device) {
-            device.process_data.sync_managers.push(manager);
-        }
+        let manager = sync_manager(reader, given, device);
+        device.process_data.sync_managers.extend(manager);
     }
     device.process_data.sync_managers.sort_by_key(|manager| manager.number);
 }

@@ -131,9 +131,7 @@ impl<'a> Table<'a> {
         table.version(reader);
         let mut options = Vec::new();
         for (name, node) in table.entries(reader, "options") {
-            if let Some(option) = reader.piece::<OptionTable>(node.clone()) {
-                options.push((name, option, node));
-            }
+            options.extend(reader.piece::<OptionTable>(node.clone()).map(|option| (name, option, node)));
         }
         let values = tree::choices(reader, &options, chosen);
         let names: Vec<String> = options.iter().map(|(name, ..)| name.value.clone()).collect();

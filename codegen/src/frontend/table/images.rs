@@ -155,10 +155,7 @@ fn of_item(
         let help = "move the facts about the value to the row of the item";
         reader.report_with_help(&codes::TABLE_VALUE, reader.span(key), message, help);
     }
-    let ty = match &field.ty {
-        Some(given) => types::single(&given.value),
-        None => Some(item.ty),
-    };
+    let ty = field.ty.as_ref().map_or(Some(item.ty), |given| types::single(&given.value));
     position(reader, rows, key, field, ty)
 }
 

@@ -72,10 +72,7 @@ fn row(
     names: &Names<'_>,
 ) -> CommandOutcomes {
     let cells_row = &row.value;
-    let commands = match &cells_row.commands {
-        Some(list) => list.clone(),
-        None => vec![name.clone()],
-    };
+    let commands = cells_row.commands.clone().unwrap_or_else(|| vec![name.clone()]);
     for command in &commands {
         names.command(reader, &command.value, reader.span(command));
     }

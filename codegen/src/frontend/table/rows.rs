@@ -149,10 +149,7 @@ impl Rows {
             return None;
         };
         let ty = self.meaning(reader, named, row, base).unwrap_or(base);
-        Some(match elements {
-            Some(count) => self.array(reader, named, ty, count),
-            None => ty,
-        })
+        Some(elements.map_or(ty, |count| self.array(reader, named, ty, count)))
     }
 
     /// Returns the bit field or enumeration of a row, with the underlying integer type `base`.

@@ -70,9 +70,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &m
             | "productFamily"
             | "buildDate"
             | "specificationRevision"
-            | "instanceName" => {
-                reader.keep(&tag)?;
-            }
+            | "instanceName" => reader.keep(&tag)?,
             _ => reader.unknown(&tag)?,
         }
     }

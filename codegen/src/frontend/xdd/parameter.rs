@@ -79,9 +79,7 @@ fn child<'a>(
                 reader.extensions.push(Extension { key: name.compact(), value, span });
             }
         }
-        "conditionalSupport" | "variableRef" | "labelRef" | "descriptionRef" => {
-            reader.keep(tag)?;
-        }
+        "conditionalSupport" | "variableRef" | "labelRef" | "descriptionRef" => reader.keep(tag)?,
         _ => reader.unknown(tag)?,
     }
     Ok(())

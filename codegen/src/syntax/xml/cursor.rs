@@ -72,9 +72,7 @@ impl<'a> Cursor<'a> {
                 [b'<', b'?', b'>', ..] => {
                     return Err(malformed(self.span(start, start + 3), "this processing instruction has no name"));
                 }
-                [b'<', b'?', ..] => {
-                    self.skip_to("?>", start, 2, "this processing instruction has no closing `?>`")?;
-                }
+                [b'<', b'?', ..] => self.skip_to("?>", start, 2, "this processing instruction has no closing `?>`")?,
                 [b'<', b'!', b'-', b'-', ..] => self.skip_to("-->", start, 4, "this comment has no closing `-->`")?,
                 [b'<', b'!', ..] => {
                     if let Some(text) = self.declaration(start)? {

@@ -330,25 +330,20 @@ impl<'o> Applied<'o> {
 
     fn no_match(&self, reader: &mut Reader<'_, '_>, row: &PatchRow) {
         let key = brief(&row.key.value);
-        let found = |message| codes::OVERLAY_NO_MATCH.at(reader.span(&row.key), message);
-        let found = match row.target {
+        let (message, help) = match row.target {
             Target::Objects(_) => {
-                let found = found(format!("the description has no object `{key}`"));
                 let help = "write `add = true` to add the object to the description";
-                if row.row.value.remove == Some(true) {
-                    found
-                } else {
-                    found.help(help)
-                }
+                let help = (row.row.value.remove != Some(true)).then(|| help.to_owned());
+                (format!("the description has no object `{key}`"), help)
             }
             Target::Name => {
-                let found = found(format!("no item has the name `{key}`"));
                 let names = self.names.iter().map(CompactString::as_str).take_while(|_| reader.helps());
                 let help = similar(&row.key.value, names).map(|name| format!("did you mean `{name}`?"));
-                Diagnostic { help, ..found }
+                (format!("no item has the name `{key}`"), help)
             }
         };
-        reader.diagnostics.push(found);
+        let found = codes::OVERLAY_NO_MATCH.at(reader.span(&row.key), message);
+        reader.diagnostics.push(Diagnostic { help, ..found });
     }
 }
 
