@@ -59,11 +59,8 @@ fn outside(
     let mut beyond = fields.iter().filter(|field| field.end() > width);
     let first = beyond.next()?;
     let others = more(beyond.count(), |others| format!(" and {}", count_of(others, "other field")));
-    let message = format!(
-        "{base} has {width} bits, but the bit field `{}` contains {}{others}",
-        brief(&definition.name),
-        called(first)
-    );
+    let (name, bits) = (brief(&definition.name), called(first));
+    let message = format!("{base} has {width} bits, but the bit field `{name}` contains {bits}{others}");
     let found = codes::BIT_OUTSIDE_TYPE.at(used(), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "definition of the bits");
     Some(found.help("use a longer type, or count the bits from 0"))

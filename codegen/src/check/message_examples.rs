@@ -60,21 +60,16 @@ impl<'a> Frame<'a> {
             let Some(bits) = self.bits(field) else { return problems };
             let last = at + bits;
             if last > self.bytes.len() * 8 {
-                problems.push(format!(
-                    "has {}, but the fields of the message need more",
-                    count_of(self.bytes.len(), "byte")
-                ));
+                let bytes = count_of(self.bytes.len(), "byte");
+                problems.push(format!("has {bytes}, but the fields of the message need more"));
                 return problems;
             }
             problems.extend(self.field(field, at..last));
             at = last;
         }
         if at.div_ceil(8) != self.bytes.len() {
-            problems.push(format!(
-                "has {}, but the fields of the message need {}",
-                count_of(self.bytes.len(), "byte"),
-                at.div_ceil(8)
-            ));
+            let (bytes, needed) = (count_of(self.bytes.len(), "byte"), at.div_ceil(8));
+            problems.push(format!("has {bytes}, but the fields of the message need {needed}"));
         }
         problems
     }

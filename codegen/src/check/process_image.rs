@@ -72,10 +72,8 @@ fn lengths(by_default: &DefaultAssignment, sync_managers: &[SyncManager], diagno
         let Some(max) = manager.size_range.1.filter(|&max| max > 0) else { continue };
         let bytes = bits.div_ceil(8);
         if bytes > u64::from(max) {
-            let message = format!(
-                "the default PDOs of sync manager {number} have {}, but MaxSize is {max}",
-                count_of(bytes, "byte")
-            );
+            let length = count_of(bytes, "byte");
+            let message = format!("the default PDOs of sync manager {number} have {length}, but MaxSize is {max}");
             diagnostics.push(codes::IMAGE_TOO_LONG.at(manager.origin.span, message));
         }
     }

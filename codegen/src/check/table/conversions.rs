@@ -49,10 +49,8 @@ fn problem(
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
     (!is_within).then(|| {
-        let text = format!(
-            "according to the scale of `{name}`, the raw value {raw} is {}{unit}, not {value}",
-            physical::rounded(exact, DIGITS)
-        );
+        let converted = physical::rounded(exact, DIGITS);
+        let text = format!("according to the scale of `{name}`, the raw value {raw} is {converted}{unit}, not {value}");
         (text, "keep the numbers that are consistent, and add a `doubt`")
     })
 }

@@ -71,19 +71,13 @@ impl Request {
         if !of_space().any(|register| register.address == self.start) {
             problems.push(format!("starts at the address {}, which no row has", hex16(self.start)));
         } else if !of_space().any(|register| self.covers(register)) {
-            let quantity = self.quantity;
-            problems.push(format!(
-                "covers {}, but the last register is not the end of an item",
-                count_of(quantity, "register")
-            ));
+            let registers = count_of(self.quantity, "register");
+            problems.push(format!("covers {registers}, but the last register is not the end of an item"));
         }
         if self.function == 16 && bytes.get(6).is_some_and(|count| u16::from(*count) != self.quantity.saturating_mul(2))
         {
-            problems.push(format!(
-                "has the byte count {} for {}",
-                bytes.get(6).unwrap_or(&0),
-                count_of(self.quantity, "register")
-            ));
+            let (count, registers) = (bytes.get(6).unwrap_or(&0), count_of(self.quantity, "register"));
+            problems.push(format!("has the byte count {count} for {registers}"));
         }
         problems.extend(ending(bytes, self.length(bytes)));
         problems
@@ -114,10 +108,8 @@ fn reply(request: Option<&Request>, bytes: &[u8]) -> Vec<String> {
             let count = bytes.get(2).copied().unwrap_or(0);
             if u16::from(count) != request.quantity.saturating_mul(2) {
                 let expected = request.quantity.saturating_mul(2);
-                problems.push(format!(
-                    "has the byte count {count} instead of {expected} for {}",
-                    count_of(request.quantity, "register")
-                ));
+                let registers = count_of(request.quantity, "register");
+                problems.push(format!("has the byte count {count} instead of {expected} for {registers}"));
             }
             3 + usize::from(count)
         }

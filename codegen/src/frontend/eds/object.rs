@@ -446,10 +446,8 @@ impl<'a> Reader<'a, '_> {
         let all = sections.refinements.iter().map(|(_, section)| section).chain(&sections.links);
         for section in all {
             let span = self.doc.name_span(section);
-            let message = format!(
-                "the section [{}] belongs to an object that the file does not describe",
-                self.doc.name(section)
-            );
+            let name = self.doc.name(section);
+            let message = format!("the section [{name}] belongs to an object that the file does not describe");
             let found = codes::NAME_WITHOUT_SUB.at(span, message);
             self.diagnostics
                 .push(found.label(format!("the section [{index:04X}] is missing; kept as extension attributes")));

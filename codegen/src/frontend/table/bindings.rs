@@ -186,12 +186,8 @@ impl Rows {
         let key = brief(&named.key.value);
         let message = match (&row.reg, &row.buses, space.and_then(|at| self.spaces.get(at))) {
             (Some(_), Some(buses), Some(space)) => {
-                let buses: Vec<&str> = buses.iter().map(|bus| brief(&bus.value)).collect();
-                format!(
-                    "`{key}` has no address on {}: the space `{}` has no rule for these buses",
-                    buses.join(", "),
-                    space.name
-                )
+                let buses = buses.iter().map(|bus| brief(&bus.value)).collect::<Vec<_>>().join(", ");
+                format!("`{key}` has no address on {buses}: the space `{}` has no rule for these buses", space.name)
             }
             (Some(_), None, Some(space)) => {
                 format!("`{key}` has no address: the space `{}` has no rule for the buses of the device", space.name)

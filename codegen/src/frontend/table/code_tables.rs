@@ -29,11 +29,8 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         doubts.extend(reader.doubts_of_part(row, key));
         let same_cells = distinct.as_mut().and_then(|distinct| distinct.before(key, row));
         if let Some(other) = same_cells {
-            let message = format!(
-                "the codes {} and {} have the same cells in the code table",
-                brief(&other.value),
-                brief(&key.value)
-            );
+            let (first, second) = (brief(&other.value), brief(&key.value));
+            let message = format!("the codes {first} and {second} have the same cells in the code table");
             let found = codes::CELLS_TWICE.at(reader.span(key), message);
             reader.diagnostics.push(found.note_at(reader.span(other), "the first of the two codes"));
         }

@@ -128,13 +128,10 @@ impl InUse {
         let other = before.or_else(|| self.registers.range((space, first)..=(space, last)).next());
         let other = other.filter(|(_, other)| !apart(other.availability.as_deref(), item.availability.as_deref()));
         if let Some(((_, start), other)) = other {
-            let message = format!(
-                "`{}` ({}) overlaps `{}` ({})",
-                brief(&item.name),
-                numbered(space, &[numbers(first, last)]),
-                brief(&other.name),
-                numbered(space, &[numbers(*start, other.last)])
-            );
+            let (name, other_name) = (brief(&item.name), brief(&other.name));
+            let range = |first, last| numbered(space, &[numbers(first, last)]);
+            let (own, others) = (range(first, last), range(*start, other.last));
+            let message = format!("`{name}` ({own}) overlaps `{other_name}` ({others})");
             let found = codes::SHARED_REGISTERS.at(item.at.name, message).note_at(other.span, "the other item");
             reader.diagnostics.push(found.help("correct the register number of one item, or use a shorter type"));
         }

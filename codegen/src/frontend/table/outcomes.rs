@@ -48,11 +48,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &MatrixTable, names: &Nam
     for state in &table.states {
         names.state(reader, &state.value, reader.span(state));
     }
-    let mut rows = Vec::new();
-    for (name, row) in table.rows.iter() {
-        rows.push(self::row(reader, table, name, row, names));
-    }
-    rows
+    table.rows.iter().map(|(name, row)| self::row(reader, table, name, row, names)).collect()
 }
 
 /// Returns the ambiguities of a state-command matrix and of its rows.
@@ -78,12 +74,8 @@ fn row(
     }
     let availability = conditions::availability(reader, &cells_row.models, [&cells_row.since, &None], None, None);
     if cells_row.cells.len() != table.states.len() {
-        let message = format!(
-            "`{}` has {}, but the matrix has {}",
-            brief(&name.value),
-            count_of(cells_row.cells.len(), "cell"),
-            count_of(table.states.len(), "state")
-        );
+        let (cells, states) = (count_of(cells_row.cells.len(), "cell"), count_of(table.states.len(), "state"));
+        let message = format!("`{}` has {cells}, but the matrix has {states}", brief(&name.value));
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
     let mut cells = Vec::with_capacity(cells_row.cells.len());
