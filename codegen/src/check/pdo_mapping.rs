@@ -223,11 +223,8 @@ impl Mapping<'_, '_> {
         };
         if counted != i128::from(announced) {
             let span = item.at.others.configured.or(item.at.default).or(item.origin.span);
-            self.report(
-                &codes::PDO_COUNT_1004,
-                span,
-                format!("0x1004 declares {}, but {key} is {announced}", count_of(counted, noun)),
-            );
+            let message = format!("0x1004 declares {}, but {key} is {announced}", count_of(counted, noun));
+            self.report(&codes::PDO_COUNT_1004, span, message);
         }
     }
 }

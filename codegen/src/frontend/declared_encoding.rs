@@ -24,12 +24,8 @@ pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
         Some(read_as) => format!("first affected character; the file is read as {read_as}"),
         None => "first invalid byte sequence; its bytes are lost".to_owned(),
     };
-    diagnostics.push(
-        codes::WRONG_ENCODING
-            .at(span, message)
-            .label(label)
-            .help("save the file as UTF-8 with the declaration `<?xml version=\"1.0\" encoding=\"UTF-8\"?>`"),
-    );
+    let help = "save the file as UTF-8 with the declaration `<?xml version=\"1.0\" encoding=\"UTF-8\"?>`";
+    diagnostics.push(codes::WRONG_ENCODING.at(span, message).label(label).help(help));
 }
 
 /// Returns the message of the diagnostic and the name of the encoding with which the file was decoded. The name is `None` if

@@ -53,11 +53,8 @@ fn every_message(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagn
             continue;
         }
         if message.by_default && message.after.is_none() {
-            left_out(
-                span,
-                format!("no code is generated for `{name}` as the answer after power-on: {FIRST}"),
-                diagnostics,
-            );
+            let message = format!("no code is generated for `{name}` as the answer after power-on: {FIRST}");
+            left_out(span, message, diagnostics);
         }
         if message.error.is_some() && refusal(shapes, message).is_none() {
             left_out(span, format!("no code is generated for the error reply of `{name}`: {NO_REFUSAL}"), diagnostics);

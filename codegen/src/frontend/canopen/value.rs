@@ -130,12 +130,8 @@ impl Converter<'_> {
             }
             return Value::Int(negative);
         }
-        self.report(
-            &codes::OUT_OF_TYPE,
-            span,
-            format!("{text} is out of range for {ty} ({low} to {high})"),
-            "kept unchanged",
-        );
+        let message = format!("{text} is out of range for {ty} ({low} to {high})");
+        self.report(&codes::OUT_OF_TYPE, span, message, "kept unchanged");
         Value::Int(value)
     }
 
@@ -242,12 +238,8 @@ impl Converter<'_> {
             let value = if bits == 32 { f64::from(f32::from_bits(pattern as u32)) } else { f64::from_bits(pattern) };
             return if value.is_finite() { Value::Real(value) } else { self.not_finite(text, span, ty) };
         }
-        self.report(
-            &codes::REAL_AS_HEX,
-            span,
-            format!("{text} does not have the {} digits of a {ty} bit pattern", bits / 4),
-            format!("read as the number {pattern}"),
-        );
+        let message = format!("{text} does not have the {} digits of a {ty} bit pattern", bits / 4);
+        self.report(&codes::REAL_AS_HEX, span, message, format!("read as the number {pattern}"));
         Value::Real(pattern as f64)
     }
 
@@ -300,11 +292,8 @@ impl Converter<'_> {
 
     fn unknown_formula(&mut self, text: &str, span: Span) {
         let found = codes::UNKNOWN_FORMULA.at(span, format!("`{text}` is not a formula that CiA 306 defines"));
-        self.diagnostics.push(
-            found.label("kept as text").help(
-                "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`",
-            ),
-        );
+        let help = "write $NODEID or $NODEID+number, or declare the other name of the node-ID with `--node-id-alias`";
+        self.diagnostics.push(found.label("kept as text").help(help));
     }
 
     /// Reports the deviation of a number from the grammar.

@@ -36,12 +36,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(D
         child(reader, &tag, &mut parts)?;
     }
     if !parts.has_type {
-        reader.report(
-            &codes::MISSING_IDENTITY,
-            parent.span,
-            "this device has no <Type>",
-            "the device has no product code",
-        );
+        let (message, label) = ("this device has no <Type>", "the device has no product code");
+        reader.report(&codes::MISSING_IDENTITY, parent.span, message, label);
     }
     reader.note("AddInfo", &parts.profiles.add_info);
     reader.note("SubAddInfo", &parts.profiles.sub_add_info);

@@ -290,12 +290,8 @@ impl<'a> Builder<'_, 'a> {
         for (at, sub) in subs.iter_mut().enumerate() {
             let Ok(sub_index) = u8::try_from(at) else {
                 let message = "an object has at most 255 sub-indices after sub-index 0";
-                reader.report(
-                    &codes::SUB_INDEX_RANGE,
-                    sub.origin.span,
-                    message,
-                    "this and all later sub-items are left out",
-                );
+                let label = "this and all later sub-items are left out";
+                reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, label);
                 break;
             };
             if !reader.derive(Cost::text(raw.flags.weight()), sub.origin.span) {

@@ -102,12 +102,8 @@ fn number(reader: &mut Reader<'_, '_>, raw: &RawValue<'_>, ty: Type, role: Role)
             _ => integer(reader, raw, ty, role),
         },
         Type::VisibleString(_) | Type::UnicodeString(_) => {
-            reader.report(
-                &codes::VALUE_FORM,
-                given.span,
-                "the data type is a string, but the value is given as a number",
-                "read as text",
-            );
+            let message = "the data type is a string, but the value is given as a number";
+            reader.report(&codes::VALUE_FORM, given.span, message, "read as text");
             Value::Text(given.compact())
         }
         _ => integer(reader, raw, ty, role),

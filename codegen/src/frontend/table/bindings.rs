@@ -50,11 +50,8 @@ impl Rows {
             }
         };
         let Some(count) = count.filter(|&number| (1..=limits::MAX_REPEAT).contains(&number)) else {
-            reader.report(
-                &codes::TABLE_VALUE,
-                reader.span(given),
-                format!("`count` must be from 1 to {}", limits::MAX_REPEAT),
-            );
+            let message = format!("`count` must be from 1 to {}", limits::MAX_REPEAT);
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
             return Repeat::ONCE;
         };
         let span = reader.span(given);
@@ -124,11 +121,10 @@ impl Rows {
                     self.numbered.push(Numbered { first: numbers.first, last, name: named.name.into() });
                     match found {
                         Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
-                        None => reader.report(
-                            &codes::UNRESOLVED_NAME,
-                            span,
-                            "the table has no `[spaces]` for this register number",
-                        ),
+                        None => {
+                            let message = "the table has no `[spaces]` for this register number";
+                            reader.report(&codes::UNRESOLVED_NAME, span, message);
+                        }
                     }
                 }
                 None => return bindings,

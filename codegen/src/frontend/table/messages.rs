@@ -142,12 +142,8 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
     let known: Vec<&CompactString> = field_names(fields).chain(echoes).collect();
     for counts in tables.iter().filter_map(|table| table.value.counts.as_ref()) {
         if !known.iter().any(|name| **name == counts.value) {
-            reader.unresolved(
-                "field of this list",
-                &counts.value,
-                reader.span(counts),
-                known.iter().map(|name| name.as_str()),
-            );
+            let known = known.iter().map(|name| name.as_str());
+            reader.unresolved("field of this list", &counts.value, reader.span(counts), known);
         }
     }
 }
@@ -338,12 +334,8 @@ impl Fields<'_, '_, '_> {
     fn echo(&mut self, echo: &At<String>, field: &At<FieldTable>) -> MessageField {
         if !self.request.iter().any(|name| *name == echo.value) {
             let known = self.request.iter().map(CompactString::as_str);
-            self.reader.unresolved(
-                "field of the request outside repeated groups",
-                &echo.value,
-                self.reader.span(echo),
-                known,
-            );
+            let what = "field of the request outside repeated groups";
+            self.reader.unresolved(what, &echo.value, self.reader.span(echo), known);
         }
         let bytes = field.value.part.as_ref().and_then(|part| self.bytes(part));
         MessageField::Echo { field: self.reader.reference(echo), bytes }

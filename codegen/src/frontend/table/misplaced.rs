@@ -31,14 +31,11 @@ pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<R
 pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let object = &row.value;
     let repeats = object.count.is_some() || object.max_count.is_some() || object.stride.is_some();
-    report(
-        reader,
-        key,
-        &[
-            ("obj", object.obj.is_some(), "delete `obj`: the key of the row is the object"),
-            ("count", repeats, "write several objects as a key such as `\"0x1400..0x1403:1\"`"),
-        ],
-    );
+    let list = [
+        ("obj", object.obj.is_some(), "delete `obj`: the key of the row is the object"),
+        ("count", repeats, "write several objects as a key such as `\"0x1400..0x1403:1\"`"),
+    ];
+    report(reader, key, &list);
     everywhere(reader, key, object);
 }
 
@@ -78,17 +75,14 @@ pub(super) fn overlay(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Ro
     let repeats = patch.count.is_some() || patch.max_count.is_some() || patch.stride.is_some();
     let words = patch.order.is_some() || patch.swap.is_some();
     let kept = "delete the key: the description sets the registers and objects of items";
-    report(
-        reader,
-        key,
-        &[
-            ("reg", patch.reg.is_some(), kept),
-            ("obj", patch.obj.is_some(), kept),
-            ("part", patch.part.is_some(), kept),
-            ("order", words, kept),
-            ("count", repeats, "delete the key: the row applies to the items of the description"),
-        ],
-    );
+    let list = [
+        ("reg", patch.reg.is_some(), kept),
+        ("obj", patch.obj.is_some(), kept),
+        ("part", patch.part.is_some(), kept),
+        ("order", words, kept),
+        ("count", repeats, "delete the key: the row applies to the items of the description"),
+    ];
+    report(reader, key, &list);
 }
 
 fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {

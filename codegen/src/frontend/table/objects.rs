@@ -218,14 +218,8 @@ fn further_addresses(
     }
     let object = item.object();
     if row.reg.is_some() {
-        let found = rows.bindings(
-            reader,
-            space,
-            named,
-            &Row { ascii: None, esc: None, param: None, ..row.clone() },
-            Repeat::ONCE,
-            ty,
-        );
+        let register = Row { ascii: None, esc: None, param: None, ..row.clone() };
+        let found = rows.bindings(reader, space, named, &register, Repeat::ONCE, ty);
         item.bindings.extend(found.into_iter().filter(|binding| !matches!(binding, Binding::Object { .. })));
     }
     let bits = ty.and_then(|ty| rows.definitions.bits_of(ty));

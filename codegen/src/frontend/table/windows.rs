@@ -69,11 +69,8 @@ fn side(
     };
     let order = side.first.as_ref().and_then(|word| {
         if !is_write {
-            reader.report(
-                &codes::TABLE_VALUE,
-                reader.span(word),
-                "`first` applies to writing only: reading always writes the number first",
-            );
+            let message = "`first` applies to writing only: reading always writes the number first";
+            reader.report(&codes::TABLE_VALUE, reader.span(word), message);
         }
         reader.word(word, "order of writes", &[("address", true), ("value", false)])
     });

@@ -131,12 +131,7 @@ fn body<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, profiles: &mut Profil
 }
 
 fn powerlink(span: Span) -> Box<Diagnostic> {
-    Box::new(
-        codes::POWERLINK_XDD
-            .at(span, "this is an XDD for Ethernet POWERLINK, not for CANopen")
-            .label("this profile is defined by EPSG 311")
-            .help(
-                "ask the vendor for the CANopen XDD; the two formats share the extension .xdd and the outer elements",
-            ),
-    )
+    let found = codes::POWERLINK_XDD.at(span, "this is an XDD for Ethernet POWERLINK, not for CANopen");
+    let help = "ask the vendor for the CANopen XDD; the two formats share the extension .xdd and the outer elements";
+    Box::new(found.label("this profile is defined by EPSG 311").help(help))
 }
