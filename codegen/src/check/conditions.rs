@@ -73,12 +73,9 @@ fn complete(context: &Context<'_>, definition: &TypeDef, conditions: &[&Conditio
         let Some((labels, _)) = enumeration else { continue };
         let of_item = conditions.iter().filter(|condition| condition.item == *other && condition.mask.is_none());
         let values: HashSet<i128> = of_item.flat_map(|condition| &condition.values).filter_map(Value::as_int).collect();
-        let missing: Vec<String> = labels
-            .iter()
-            .filter(|label| label.is_named() && label.last.is_none())
-            .filter(|label| label.value != 0 && !values.contains(&label.value))
-            .map(|label| format!("{} (`{}`)", label.value, brief(&label.name)))
-            .collect();
+        let missing = labels.iter().filter(|label| label.is_named() && label.last.is_none());
+        let missing = missing.filter(|label| label.value != 0 && !values.contains(&label.value));
+        let missing: Vec<String> = missing.map(|label| format!("{} (`{}`)", label.value, brief(&label.name))).collect();
         if !missing.is_empty() {
             let message = format!("`{name}` describes no bits for `{}` = {}", brief(name_of_other), missing.join(", "));
             diagnostics.push(codes::MODE_WITHOUT_BITS.at(definition.origin.span, message));

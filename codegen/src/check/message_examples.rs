@@ -148,10 +148,9 @@ impl<'a> Frame<'a> {
                     Some(true) => Some("is reserved"),
                     Some(false) => None,
                 };
-                problem
-                    .map(|why| format!("has {} in the field `{name}`, but this value {why}", hex(number)))
-                    .into_iter()
-                    .collect()
+                let number = hex(number);
+                let problem = problem.map(|why| format!("has {number} in the field `{name}`, but this value {why}"));
+                problem.into_iter().collect()
             }
             Some(Shape::BitField { fields, .. }) => {
                 let mut problems = Vec::new();

@@ -63,10 +63,8 @@ impl Check<'_, '_> {
             Some(_) => Number::of("fixed value", default, at.default.or(at.others.low)),
             None => Number::of("default", default, at.default),
         };
-        default
-            .into_iter()
-            .chain(Number::of("configured value", self.item.configured_value(), at.others.configured))
-            .collect()
+        let configured = Number::of("configured value", self.item.configured_value(), at.others.configured);
+        default.into_iter().chain(configured).collect()
     }
 
     /// Returns the integer limits of an item. The list is empty if the minimum and the maximum are equal.

@@ -38,8 +38,6 @@ fn duplicate(pdo: &Pdo, first: Span) -> Diagnostic {
 fn length(entry: &PdoEntry, item: &Item, bits: u32) -> Diagnostic {
     let message =
         format!("{} is mapped with {}, but the object has {bits}", address(entry), count_of(entry.bits, "bit"));
-    codes::MAPPED_LENGTH
-        .at(entry.origin.span, message)
-        .label("the length of the entry is used")
-        .note_at(item.origin.span, "the mapped object")
+    let found = codes::MAPPED_LENGTH.at(entry.origin.span, message).label("the length of the entry is used");
+    found.note_at(item.origin.span, "the mapped object")
 }

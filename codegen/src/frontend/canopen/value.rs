@@ -245,11 +245,8 @@ impl Converter<'_> {
 
     fn octets(&mut self, text: &str, span: Span) -> Value {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")).unwrap_or(text);
-        let nibbles: Option<Vec<u8>> = digits
-            .chars()
-            .filter(|digit| !matches!(digit, ' ' | '\t'))
-            .map(|digit| digit.to_digit(16).map(|digit| digit as u8))
-            .collect();
+        let digits = digits.chars().filter(|digit| !matches!(digit, ' ' | '\t'));
+        let nibbles: Option<Vec<u8>> = digits.map(|digit| digit.to_digit(16).map(|digit| digit as u8)).collect();
         match nibbles {
             Some(nibbles) if !nibbles.is_empty() && nibbles.len() % 2 == 0 => {
                 Value::Bytes(nibbles.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect())

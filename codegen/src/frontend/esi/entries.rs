@@ -96,10 +96,8 @@ fn sorted<'t, 'a>(
         reported += usize::from(twice);
         if twice && reported <= MAX_REPORTED {
             let message = format!("sub-index {} occurs twice", hex8(later.sub_index));
-            let found = codes::ESI_DUPLICATE_OBJECT
-                .at(later.field.origin.span, message)
-                .label("ignored")
-                .note_at(earlier.field.origin.span, "this sub-item is used");
+            let found = codes::ESI_DUPLICATE_OBJECT.at(later.field.origin.span, message).label("ignored");
+            let found = found.note_at(earlier.field.origin.span, "this sub-item is used");
             reader.diagnostics.push(found.note_at(raw.origin.span, "object with this data type"));
         }
         twice

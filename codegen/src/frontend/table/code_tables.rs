@@ -97,12 +97,8 @@ impl<'t> Distinct<'t> {
     /// Returns an earlier code with the same cells as `row`, or `None` if there is no such code. A row without cells,
     /// or with a NaN cell, equals no other row.
     fn before(&mut self, key: &'t At<String>, row: &'t CodeTableRow) -> Option<&'t At<String>> {
-        let cells = row
-            .cells
-            .iter()
-            .map(|literal| Cell::of(&literal.value))
-            .collect::<Option<Vec<_>>>()
-            .filter(|cells| !cells.is_empty())?;
+        let cells = row.cells.iter().map(|literal| Cell::of(&literal.value)).collect::<Option<Vec<_>>>();
+        let cells = cells.filter(|cells| !cells.is_empty())?;
         let first = *self.0.entry(cells).or_insert(key);
         (first.start != key.start).then_some(first)
     }

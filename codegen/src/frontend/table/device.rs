@@ -110,6 +110,8 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
     let origin = reader.origin(name);
     let doubts = reader.doubts_of(model, origin);
     let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
+    let constants = model.constants.iter();
+    let constants = constants.filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)));
     device.variants.push(Variant {
         name: name.value.as_str().into(),
         identity: Identity {
@@ -119,11 +121,7 @@ pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device:
             product_name: name.value.as_str().into(),
             ..Identity::default()
         },
-        constants: model
-            .constants
-            .iter()
-            .filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)))
-            .collect(),
+        constants: constants.collect(),
         documentation: reader.documentation_of(model),
         doubts,
         origin,

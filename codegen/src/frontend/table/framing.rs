@@ -18,18 +18,14 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
     let framing = &table.value;
     let origin = reader.origin(table);
     device.doubts.extend(reader.doubts_of(framing, origin));
+    let check = framing.check.as_ref().and_then(|word| reader.word(word, "checksum", &CHECKS));
     device.framing = Some(Box::new(Framing {
         start: framing.start,
         end: framing.end,
         escape: framing.escape,
         escape_xor: framing.escape_xor,
         escaped: framing.escaped.clone(),
-        check: framing
-            .check
-            .as_ref()
-            .and_then(|word| reader.word(word, "checksum", &CHECKS))
-            .unwrap_or_default()
-            .into(),
+        check: check.unwrap_or_default().into(),
         check_from: framing.check_from.as_ref().map(|field| field.value.as_str().into()),
         check_escaped: framing.check_escaped.unwrap_or(framing.escape.is_some()),
         check_seed: framing.seed,

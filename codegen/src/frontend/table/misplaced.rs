@@ -11,19 +11,16 @@ type Misplaced<'r> = &'r [(&'r str, bool, &'r str)];
 /// Checks a row in `[chapters.registers]` of a register table.
 pub(super) fn register(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
     let register = &row.value;
-    report(
-        reader,
-        key,
-        &[
-            ("name", register.name.is_some(), "delete `name`: the key of a register is its name"),
-            ("code", register.code.is_some(), "move the row to `[chapters.objects]`: only objects have an object code"),
-            (
-                "reserved",
-                register.reserved.is_some(),
-                "delete the row if the register has no meaning: only a sub-index can be reserved",
-            ),
-        ],
-    );
+    let list = [
+        ("name", register.name.is_some(), "delete `name`: the key of a register is its name"),
+        ("code", register.code.is_some(), "move the row to `[chapters.objects]`: only objects have an object code"),
+        (
+            "reserved",
+            register.reserved.is_some(),
+            "delete the row if the register has no meaning: only a sub-index can be reserved",
+        ),
+    ];
+    report(reader, key, &list);
     everywhere(reader, key, register);
 }
 
@@ -42,31 +39,28 @@ pub(super) fn object(reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row
 fn everywhere(reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row) {
     let by_item = matches!(&row.count, Some(At { value: NumberOrText::Text(_), .. }));
     let words = row.order.is_some() || row.swap.is_some();
-    report(
-        reader,
-        key,
-        &[
-            ("why", row.why.is_some(), "delete `why`, the reason of a change: only overlays make changes"),
-            ("add", row.add.is_some(), "delete `add`: only an overlay adds items to a description"),
-            ("remove", row.remove.is_some(), "delete the row: only an overlay removes items"),
-            (
-                "part",
-                row.part.is_some() && row.reg.is_none(),
-                "add `reg`, or delete `part`, which selects bits of a register",
-            ),
-            ("order", words && row.reg.is_none(), "add `reg`, or delete the word order of registers"),
-            (
-                "stride",
-                row.stride.is_some() && row.count.is_none(),
-                "add `count`, or delete `stride`, the distance between several items",
-            ),
-            (
-                "max_count",
-                row.max_count.is_some() && !by_item,
-                "write the name of an item as `count`, or delete `max_count`",
-            ),
-        ],
-    );
+    let list = [
+        ("why", row.why.is_some(), "delete `why`, the reason of a change: only overlays make changes"),
+        ("add", row.add.is_some(), "delete `add`: only an overlay adds items to a description"),
+        ("remove", row.remove.is_some(), "delete the row: only an overlay removes items"),
+        (
+            "part",
+            row.part.is_some() && row.reg.is_none(),
+            "add `reg`, or delete `part`, which selects bits of a register",
+        ),
+        ("order", words && row.reg.is_none(), "add `reg`, or delete the word order of registers"),
+        (
+            "stride",
+            row.stride.is_some() && row.count.is_none(),
+            "add `count`, or delete `stride`, the distance between several items",
+        ),
+        (
+            "max_count",
+            row.max_count.is_some() && !by_item,
+            "write the name of an item as `count`, or delete `max_count`",
+        ),
+    ];
+    report(reader, key, &list);
 }
 
 /// Checks a row of an overlay or profile, which cannot change register numbers or object addresses.

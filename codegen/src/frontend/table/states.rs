@@ -29,11 +29,8 @@ pub(super) fn states(
     };
     let Some((base, values)) = enumeration(device, name) else {
         let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
-        let known = device
-            .types
-            .iter()
-            .filter(|definition| is_enumeration(&definition.shape))
-            .map(|definition| definition.name.as_str());
+        let known = device.types.iter().filter(|definition| is_enumeration(&definition.shape));
+        let known = known.map(|definition| definition.name.as_str());
         reader.unresolved("enumeration", name, reader.span(given), known);
         return (None, Vec::new());
     };

@@ -55,11 +55,8 @@ fn without_selector(all: &[Shaped<'_>]) -> Vec<bool> {
         }
     }
     let mut lost = vec![false; all.len()];
-    let mut found: Vec<usize> = dependents
-        .iter()
-        .filter(|(selector, _)| selector.is_none_or(|id| !selectors.contains(&id)))
-        .flat_map(|(_, list)| list.iter().copied())
-        .collect();
+    let unselected = dependents.iter().filter(|(selector, _)| selector.is_none_or(|id| !selectors.contains(&id)));
+    let mut found: Vec<usize> = unselected.flat_map(|(_, list)| list.iter().copied()).collect();
     while let Some(at) = found.pop() {
         if std::mem::replace(&mut lost[at], true) || !all[at].can_select() {
             continue;
