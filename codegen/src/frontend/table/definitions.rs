@@ -173,6 +173,7 @@ impl Definitions {
             unfilled(reader, key, name);
             let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
+            let (versions, replaced_by) = ([&more.since, &more.until], more.replaced_by.as_deref());
             values.push(EnumValue {
                 name: name.map_or_else(unnamed, CompactString::from),
                 value: first,
@@ -183,8 +184,8 @@ impl Definitions {
                 availability: conditions::availability(
                     reader,
                     &more.models,
-                    [&more.since, &more.until],
-                    more.replaced_by.as_deref(),
+                    versions,
+                    replaced_by,
                     more.buses.as_ref(),
                 ),
                 documentation: reader.documentation_of(more),
@@ -248,6 +249,7 @@ impl Definitions {
             ("toggle", Trigger::Toggle),
             ("self_clearing", Trigger::SelfClearing),
         ];
+        let (versions, replaced_by) = ([&table.since, &table.until], table.replaced_by.as_deref());
         BitFieldEntry {
             name: if matches!(meaning, BitMeaning::Reserved { .. }) && !is_named {
                 CompactString::default()
@@ -261,13 +263,7 @@ impl Definitions {
             when: conditions::condition(reader, table.when.as_ref()),
             trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
             access: table.access.as_ref().and_then(|access| reader.word(access, "access right", &ACCESSES)),
-            availability: conditions::availability(
-                reader,
-                &table.models,
-                [&table.since, &table.until],
-                table.replaced_by.as_deref(),
-                None,
-            ),
+            availability: conditions::availability(reader, &table.models, versions, replaced_by, None),
             documentation: reader.documentation_of(table),
             at: Mark(reader.span(key)),
         }

@@ -2,7 +2,7 @@
 
 use std::mem;
 
-use super::super::format::{ImageTable, NumberOrText, ProfileTable};
+use super::super::format::{ImageTable, ProfileTable};
 use super::super::machine_budget::MachineBudget;
 use super::super::rows::{Named, Rows};
 use super::super::tree::{cited, Reader};
