@@ -2,9 +2,8 @@
 
 use super::change::{Change, Judgment};
 use super::comparison::{
-    compare_fields, fact, fact_as, list, or_default, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
+    compare_fields, each, fact, fact_as, list, or_default, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
-use super::ethercat::joined;
 use super::pairing::pairs;
 use super::show::Show;
 use super::texts::extensions;
@@ -44,17 +43,17 @@ fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
         code_tables: codes::tables(),
         unit_diagnoses: profinet::unit_diagnoses(),
         families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
-            .judged(|_| Judgment::NONE, |_| Judgment::NONE), family),
-        graphics: part("the catalog", fact_as("pictures", Judgment::NONE, |list: &Vec<Graphic>| {
-            list.iter().map(|graphic| format!("{} {}", graphic.id, graphic.file)).collect::<Vec<_>>().join("; ")
+            .judged(Judgment::NONE, Judgment::NONE), family),
+        graphics: part("the catalog", each("pictures", Judgment::NONE, |graphic: &Graphic| {
+            format!("{} {}", graphic.id, graphic.file)
         })),
         vendor_names: part("the catalog", text("name of the vendor in other languages")),
         descriptions: part("the catalog", text("description in other languages")),
         vendor_urls: part("the catalog", fact("URLs of the vendor", Judgment::NONE)),
         format_version: part("the file", text("version of the format")),
         profile_header: part("the file", or_default(profile_header)),
-        unused_texts: part("the catalog", fact_as("texts without a use", Judgment::NONE, |list: &Vec<UnusedText>| {
-            joined(list, |text| format!("{} {}{}", text.id, text.text, text.translations.show()))
+        unused_texts: part("the catalog", each("texts without a use", Judgment::NONE, |text: &UnusedText| {
+            format!("{} {}{}", text.id, text.text, text.translations.show())
         })),
         extensions: part("the catalog", extensions),
     }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);

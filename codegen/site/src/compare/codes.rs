@@ -9,9 +9,8 @@ use lexibus_codegen::ir::{CodeRow, CodeTable};
 
 /// Compares code tables, which are paired by name.
 pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Comparison<'_>) {
-    let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name))
-        .paired_by(|table| identifier(&table.name));
-    list(elements.judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), table)
+    let elements = Elements::titled(|table: &CodeTable| format!("codes {}", table.name));
+    list(elements.paired_by(|table| identifier(&table.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), table)
 }
 
 fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
@@ -28,12 +27,11 @@ fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
 /// exhaustively.
 fn rows() -> Elements<CodeRow> {
     Elements {
-        title: |row| format!("code {} {}", code::text(row), row.name),
-        name: |row| row.name.to_string(),
+        name: |row: &CodeRow| row.name.to_string(),
         position: |row| row.code.to_string(),
-        added: |_| Judgment::API,
-        removed: |_| Judgment::API,
+        ..Elements::titled(|row: &CodeRow| format!("code {} {}", code::text(row), row.name))
     }
+    .judged(Judgment::API, Judgment::API)
 }
 
 fn row(old: &CodeRow, new: &CodeRow, comparison: &mut Comparison<'_>) {

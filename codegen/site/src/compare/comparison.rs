@@ -143,7 +143,7 @@ macro_rules! rule {
         $crate::compare::comparison::text("name in other languages")
     };
     (documentation) => {
-        $crate::compare::texts::documentation
+        $crate::compare::comparison::or_default($crate::compare::texts::documentation)
     };
     (doubts) => {
         $crate::compare::texts::doubts
@@ -158,7 +158,7 @@ macro_rules! rule {
         $crate::compare::texts::stated_by
     };
     (availability) => {
-        $crate::compare::conditions::availability
+        $crate::compare::comparison::or_default($crate::compare::conditions::availability)
     };
     ($field:ident, $rule:expr) => {
         $rule
@@ -205,14 +205,35 @@ pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&
 /// Returns a rule that compares values by their texts, because the values contain positions in the source.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
-    judgment: Judgment,
     show: impl Fn(&T) -> String,
 ) -> impl Fn(&T, &T, &mut Comparison<'_>) {
     move |old, new, comparison| {
         if old != new {
-            comparison.texts(name, show(old), show(new), judgment);
+            comparison.texts(name, show(old), show(new), Judgment::NONE);
         }
     }
+}
+
+/// Returns a rule that compares the elements of a list by their texts, because the elements contain positions in the source.
+pub(super) fn each_positioned<T, L: Deref<Target = [T]> + PartialEq>(
+    name: &'static str,
+    show: impl Fn(&T) -> String,
+) -> impl Fn(&L, &L, &mut Comparison<'_>) {
+    positioned(name, move |list: &L| joined(list, &show))
+}
+
+/// Returns a rule that compares a list. `show` formats each element.
+pub(super) fn each<T, L: Deref<Target = [T]> + PartialEq + Debug>(
+    name: &'static str,
+    judgment: Judgment,
+    show: impl Fn(&T) -> String,
+) -> impl Fn(&L, &L, &mut Comparison<'_>) {
+    fact_as(name, judgment, move |list: &L| joined(list, &show))
+}
+
+/// Joins the elements of a list. `show` formats each element.
+pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
+    list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
 
 /// Returns a rule that compares a fact. The effects of a change depend on the old and new values.
@@ -280,8 +301,12 @@ pub(super) struct Elements<T> {
     pub name: fn(&T) -> String,
     /// Function that returns the second key, which pairs the elements that the first key does not pair.
     pub position: fn(&T) -> String,
-    pub added: fn(&T) -> Judgment,
-    pub removed: fn(&T) -> Judgment,
+    /// Function that returns the text of an added or removed element in reports.
+    pub label: fn(&T) -> String,
+    /// Function that returns whether the addition or removal of an element has an effect.
+    pub has_effect: fn(&T) -> bool,
+    pub added: Judgment,
+    pub removed: Judgment,
 }
 
 impl<T> Elements<T> {
@@ -291,8 +316,10 @@ impl<T> Elements<T> {
             title,
             name: title,
             position: |_| String::new(),
-            added: |_| Judgment::ADDITION,
-            removed: |_| Judgment::API_AND_WIRE,
+            label: |_| String::new(),
+            has_effect: |_| true,
+            added: Judgment::ADDITION,
+            removed: Judgment::API_AND_WIRE,
         }
     }
 
@@ -301,8 +328,8 @@ impl<T> Elements<T> {
         Elements { name, ..self }
     }
 
-    /// Sets the functions that return the effects of an addition and of a removal.
-    pub fn judged(self, added: fn(&T) -> Judgment, removed: fn(&T) -> Judgment) -> Self {
+    /// Sets the effects of an addition and of a removal.
+    pub fn judged(self, added: Judgment, removed: Judgment) -> Self {
         Elements { added, removed, ..self }
     }
 }
@@ -325,10 +352,15 @@ pub(super) fn slices<T>(
 ) {
     for (old, new) in pairing::pairs(old, new, elements.name, elements.position) {
         let Some(title) = new.or(old).map(elements.title) else { continue };
+        let judge = |one: &T, judgment| if (elements.has_effect)(one) { judgment } else { Judgment::NONE };
         comparison.within(&title, |comparison| match (old, new) {
             (Some(old), Some(new)) => compare(old, new, comparison),
-            (Some(old), None) => comparison.removed((elements.removed)(old)),
-            (None, Some(new)) => comparison.added((elements.added)(new)),
+            (Some(old), None) => {
+                comparison.push("removed", (elements.label)(old), String::new(), judge(old, elements.removed));
+            }
+            (None, Some(new)) => {
+                comparison.push("added", String::new(), (elements.label)(new), judge(new, elements.added));
+            }
             (None, None) => {}
         });
     }

@@ -2,8 +2,8 @@
 
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, fact, fact_as, judged, list, optional, or_default, part, positioned, slice, text, Comparison,
-    Elements, COMPARED, KEY, POSITION,
+    compare_fields, each, each_positioned, fact, fact_as, judged, list, optional, or_default, part, slice, text,
+    Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
 use super::identity::identity;
@@ -13,8 +13,8 @@ use super::texts::{documentation, doubts, extensions, manual, renamed};
 use super::{codes, ethercat, groups, machines, messages, modules, pdos, profinet, types};
 use lexibus_codegen::facts;
 use lexibus_codegen::ir::{
-    AxisRange, AxisRule, CanOpenSettings, Commissioning, Composite, Device, DynamicChannel, GivenNumber, Group, Header,
-    MessageExample, ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
+    AxisRange, AxisRule, CanOpenSettings, Commissioning, Composite, Device, DynamicChannel, GivenNumber, Header,
+    ModbusTable, Procedure, ProcessData, StateMachine, Value, Variant,
 };
 use lexibus_codegen::number::hex;
 
@@ -28,9 +28,7 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         profinet: optional("PROFINET", Judgment::ADDITION, Judgment::API_AND_WIRE, profinet::settings),
         modbus: slice(modbus_tables),
         commissioning: part("commissioning", or_default(commissioning)),
-        groups: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
-            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
-        },
+        groups: slice(groups::compare),
         process_data: |one: &ProcessData, other: &ProcessData, comparison: &mut Comparison<'_>| {
             pdos::compare(one, other, facts::pdo::buses(new), comparison);
         },
@@ -41,23 +39,18 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
         parameter_spaces: messages::spaces(),
         framing: optional("framing", Judgment::ADDITION, Judgment::API_AND_WIRE, messages::framing),
         given: list(Elements::titled(|number: &GivenNumber| format!("machine constant {}", number.name))
-            .paired_by(|number| identifier(&number.name))
-            .judged(|_| Judgment::API, |_| Judgment::API), given),
+            .paired_by(|number| identifier(&number.name)).judged(Judgment::API, Judgment::API), given),
         code_tables: codes::tables(),
         machines: list(Elements::titled(|machine: &StateMachine| format!("machine {}", machine.name))
-            .paired_by(|machine| identifier(&machine.name))
-            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), machines::compare),
+            .paired_by(|machine| identifier(&machine.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), machines::compare),
         procedures: list(Elements::titled(|procedure: &Procedure| format!("procedure {}", procedure.name))
-            .paired_by(|procedure| identifier(&procedure.name))
-            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), machines::procedure),
+            .paired_by(|procedure| identifier(&procedure.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), machines::procedure),
         composites: list(Elements::titled(|composite: &Composite| format!("composite {}", composite.name))
-            .paired_by(|composite| identifier(&composite.name))
-            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), composite),
+            .paired_by(|composite| identifier(&composite.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), composite),
         variants: list(Elements::titled(|model: &Variant| format!("model {}", model.name))
-            .paired_by(|model| identifier(&model.name))
-            .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API), model),
+            .paired_by(|model| identifier(&model.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), model),
         axes: optional("axes", Judgment::API_COMPATIBLE, Judgment::API, axes),
-        manual: part("the manual", manual),
+        manual: part("the manual", or_default(manual)),
     },
     COMPARED => [name, names, id, dictionary_only, identity, modbus_examples, node_ids, profiles, types, documentation,
         doubts, extensions],
@@ -77,14 +70,10 @@ fn facts_of_device(old: &Device, new: &Device, comparison: &mut Comparison<'_>) 
     text("identifier in the file")(&old.id, &new.id, comparison);
     fact("dictionary without a device", Judgment::API)(&old.dictionary_only, &new.dictionary_only, comparison);
     identity(&old.identity, &new.identity, comparison);
-    positioned("examples of frames", Judgment::NONE, |examples: &Vec<MessageExample>| messages::examples(examples))(
-        &old.modbus_examples,
-        &new.modbus_examples,
-        comparison,
-    );
+    each_positioned("examples of frames", messages::example)(&old.modbus_examples, &new.modbus_examples, comparison);
     fact_as("node-IDs", Judgment::BEHAVIOR, node_ids)(&old.node_ids, &new.node_ids, comparison);
     fact("profiles", Judgment::BEHAVIOR)(&old.profiles, &new.profiles, comparison);
-    documentation(&old.documentation, &new.documentation, comparison);
+    or_default(documentation)(&old.documentation, &new.documentation, comparison);
     doubts(&old.doubts, &new.doubts, comparison);
     extensions(&old.extensions, &new.extensions, comparison);
 }
@@ -130,9 +119,7 @@ fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Compar
         compact_pdo: fact("sub-indices of implicit PDOs", Judgment::BEHAVIOR),
         dummies: fact("dummy entries", Judgment::BEHAVIOR),
         dummies_given: fact("list of dummy entries", Judgment::NONE),
-        dynamic_channels: fact_as("dynamic channels", Judgment::BEHAVIOR, |list: &Vec<DynamicChannel>| {
-            list.iter().map(dynamic_channel).collect::<Vec<_>>().join("; ")
-        }),
+        dynamic_channels: each("dynamic channels", Judgment::BEHAVIOR, dynamic_channel),
     }, POSITION => [at]);
 }
 
@@ -236,9 +223,8 @@ fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {
             if new < old { Judgment::API_AND_WIRE } else { Judgment::ADDITION }
         }),
         models: restricted("models"),
-        rules: fact_as("addresses of further axes", Judgment::WIRE, |rules: &Vec<AxisRange>| {
-            let rule = |rule: &AxisRange| format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show());
-            rules.iter().map(rule).collect::<Vec<_>>().join("; ")
+        rules: each("addresses of further axes", Judgment::WIRE, |rule: &AxisRange| {
+            format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show())
         }),
     });
 }

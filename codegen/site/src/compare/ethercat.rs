@@ -2,7 +2,7 @@
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, fact, fact_as, list, optional, or_default, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, each, fact, fact_as, joined, list, optional, or_default, text, Comparison, Elements, KEY, POSITION,
 };
 use super::show::{index, Show};
 use lexibus_codegen::ir::{
@@ -15,17 +15,15 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
     compare_fields!(EtherCatSettings, old, new, comparison, {
         physics: fact("ports", Judgment::BEHAVIOR),
         group: text("family"),
-        hides: fact_as("hidden revisions", Judgment::NONE, |list: &Vec<(Option<u32>, Option<u32>)>| {
-            joined(list, hidden)
-        }),
+        hides: each("hidden revisions", Judgment::NONE, hidden),
         invisible: fact("hidden in lists of devices", Judgment::NONE),
-        fmmus: fact_as("FMMUs", Judgment::WIRE, |list: &Vec<Fmmu>| joined(list, fmmu)),
-        sync_units: fact_as("sync units", Judgment::WIRE, |list: &Vec<SyncUnit>| joined(list, sync_unit)),
+        fmmus: each("FMMUs", Judgment::WIRE, fmmu),
+        sync_units: each("sync units", Judgment::WIRE, sync_unit),
         mailbox: optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox),
         clocks: optional("distributed clocks", Judgment::ADDITION, Judgment::API_AND_WIRE, clocks),
         slots: optional("slots", Judgment::ADDITION, Judgment::API_AND_WIRE, slots),
-        registers: fact_as("registers of the slave controller", Judgment::WIRE, |list: &Vec<(u16, u32)>| {
-            joined(list, |(address, value)| format!("{} = {}", hex16(*address), hex(*value)))
+        registers: each("registers of the slave controller", Judgment::WIRE, |(address, value): &(u16, u32)| {
+            format!("{} = {}", hex16(*address), hex(*value))
         }),
         eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
         timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
@@ -39,9 +37,7 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
         tool: or_default(tool),
         controller: or_default(controller),
         station_alias: fact("station alias", Judgment::BEHAVIOR),
-        urls: fact_as("URLs", Judgment::NONE, |urls: &Vec<LocalText>| {
-            joined(urls, |url| format!("{} {}", url.language, url.text))
-        }),
+        urls: each("URLs", Judgment::NONE, |url: &LocalText| format!("{} {}", url.language, url.text)),
         picture: fact("picture", Judgment::NONE),
     });
 }
@@ -49,11 +45,6 @@ pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison
 /// Formats the product code and revision of a device that this description hides in configuration tools.
 fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
     [identity.0, identity.1].into_iter().flatten().map(hex32).collect::<Vec<_>>().join(" ")
-}
-
-/// Joins the elements of a list. `show` formats each element.
-pub(super) fn joined<T>(list: &[T], show: impl Fn(&T) -> String) -> String {
-    list.iter().map(show).collect::<Vec<_>>().join("; ")
 }
 
 /// Appends the names of all set flags to a text.
@@ -141,7 +132,7 @@ fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
 fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
     let title =
         |command: &InitCommand| format!("start-up write to {}", number::object(command.index, command.sub_index));
-    list(Elements::titled(title).judged(|_| Judgment::WIRE, |_| Judgment::WIRE), init_command)
+    list(Elements::titled(title).judged(Judgment::WIRE, Judgment::WIRE), init_command)
 }
 
 fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Comparison<'_>) {
@@ -173,9 +164,7 @@ fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>)
         shift_sync0: fact_as("shift of Sync0", Judgment::WIRE, clock_time),
         cycle_sync1: fact_as("cycle of Sync1", Judgment::WIRE, clock_time),
         shift_sync1: fact_as("shift of Sync1", Judgment::WIRE, clock_time),
-        sync_managers: fact_as("sync managers", Judgment::WIRE, |list: &Vec<ClockSyncManager>| {
-            joined(list, clock_sync_manager)
-        }),
+        sync_managers: each("sync managers", Judgment::WIRE, clock_sync_manager),
     }, KEY => [name]);
 }
 
@@ -203,10 +192,10 @@ fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
         download_idents: fact("the master writes module idents", Judgment::WIRE),
         download_addresses: fact("the master writes module addresses", Judgment::WIRE),
         download_transition: fact("transition of these writes", Judgment::WIRE),
-        pdo_groups: fact_as("module PDO groups", Judgment::WIRE, |list: &Vec<ModulePdoGroup>| joined(list, pdo_group)),
+        pdo_groups: each("module PDO groups", Judgment::WIRE, pdo_group),
         groups: text("names of slot groups"),
-        selections: fact_as("arrangements of modules", Judgment::NONE, |list: &Vec<(CompactString, Vec<u32>)>| {
-            joined(list, |(name, modules)| format!("{name}: {}", modules.show()))
+        selections: each("arrangements of modules", Judgment::NONE, |(name, modules): &(CompactString, Vec<u32>)| {
+            format!("{name}: {}", modules.show())
         }),
     });
 }
@@ -224,8 +213,8 @@ fn eeprom(old: &Eeprom, new: &Eeprom, comparison: &mut Comparison<'_>) {
         byte_size: fact("size in bytes", Judgment::BEHAVIOR),
         config_data: fact_as("configuration", Judgment::BEHAVIOR, block),
         boot_strap: fact_as("bootstrap mailbox", Judgment::WIRE, block),
-        categories: fact_as("categories", Judgment::BEHAVIOR, |list: &Vec<(u16, Vec<u8>)>| {
-            joined(list, |(number, data)| format!("{number}: {}", bytes(data)))
+        categories: each("categories", Judgment::BEHAVIOR, |(number, data): &(u16, Vec<u8>)| {
+            format!("{number}: {}", bytes(data))
         }),
         assign_to_pdi: fact("assigned to the process data interface", Judgment::BEHAVIOR),
     });

@@ -3,26 +3,26 @@
 use std::ops::Range;
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
+use super::comparison::{compare_fields, each, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
 use super::item;
 use super::names::Identifiers;
 use super::pairing::{Key, Matching};
-use super::show::index;
+use super::show::{index, indices};
 use lexibus_codegen::facts::address;
 use lexibus_codegen::facts::item::entry_name;
 use lexibus_codegen::ir::{CompactString, Group, GroupKind, Item, Record, ToolFlags};
 use lexibus_codegen::number::{bytes, hex, hex16};
 
 /// Compares groups and their items. An item that moved to another group is still compared with its old version.
-pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Comparison<'_>) {
+pub(super) fn compare(old: &[Group], new: &[Group], comparison: &mut Comparison<'_>) {
     let (old, new) = (Side::of(old), Side::of(new));
     let groups = Matching::of(&old.group_keys(), &new.group_keys());
     let items = Matching::of(&old.item_keys(), &new.item_keys());
     for (at, group) in old.groups.iter().enumerate() {
         let entries = old.entries_of(at);
         match groups.new_of_old[at] {
-            Some(other) => comparison.within(&title(new.groups[other]), |comparison| {
-                facts(group, new.groups[other], [old.identifier(at), new.identifier(other)], comparison);
+            Some(other) => comparison.within(&title(&new.groups[other]), |comparison| {
+                facts(group, &new.groups[other], [old.identifier(at), new.identifier(other)], comparison);
             }),
             None => {
                 let is_whole = entries.clone().all(|entry| items.new_of_old[entry].is_none());
@@ -59,7 +59,7 @@ pub(super) fn compare(old: &[&Group], new: &[&Group], comparison: &mut Compariso
 
 /// The groups of one description, with a list of all their items.
 struct Side<'a> {
-    groups: &'a [&'a Group],
+    groups: &'a [Group],
     identifiers: Identifiers,
     entries: Vec<Entry<'a>>,
     /// For each group, the range of its entries in the list of all items.
@@ -75,7 +75,7 @@ struct Entry<'a> {
 }
 
 impl<'a> Side<'a> {
-    fn of(groups: &'a [&'a Group]) -> Self {
+    fn of(groups: &'a [Group]) -> Self {
         let mut identifiers = Identifiers::of(groups);
         let (mut entries, mut ranges) = (Vec::new(), Vec::new());
         for (group, names) in groups.iter().zip(std::mem::take(&mut identifiers.items)) {
@@ -184,9 +184,7 @@ fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comp
         },
         names,
         kind: |_: &GroupKind, _: &GroupKind, comparison: &mut Comparison<'_>| kind(old, new, comparison),
-        links: fact_as("linked objects", Judgment::NONE, |links: &Vec<u16>| {
-            links.iter().map(index).collect::<Vec<_>>().join(", ")
-        }),
+        links: fact_as("linked objects", Judgment::NONE, |links: &Vec<u16>| indices(links)),
         flags: fact_as("flags of the object", Judgment::BEHAVIOR, |flags| hex(*flags)),
         depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
         depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
@@ -231,8 +229,8 @@ fn record(old: &Record, new: &Record, comparison: &mut Comparison<'_>) {
         length: fact("length in bytes", Judgment::API_AND_WIRE),
         transfer_sequence: fact("order of transfer", Judgment::WIRE),
         changeable_with_bump: fact("a change disturbs operation", Judgment::BEHAVIOR),
-        constants: fact_as("fixed bytes", Judgment::WIRE, |constants: &Vec<(u32, Vec<u8>)>| {
-            constants.iter().map(|(offset, constant)| format!("{offset}: {}", bytes(constant))).collect::<Vec<_>>().join("; ")
+        constants: each("fixed bytes", Judgment::WIRE, |(offset, constant): &(u32, Vec<u8>)| {
+            format!("{offset}: {}", bytes(constant))
         }),
     });
 }

@@ -1,7 +1,7 @@
 //! Compares the vendor, product and revision of devices, modules and submodules.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact_as, positioned, text, Comparison};
+use super::comparison::{compare_fields, each_positioned, fact_as, text, Comparison};
 use super::show::ident;
 use super::texts::origin;
 use lexibus_codegen::ir::{CompactString, FactOrigin, Identity, IdentityNumber};
@@ -20,8 +20,8 @@ pub(super) fn identity(old: &Identity, new: &Identity, comparison: &mut Comparis
         others: fact_as("further identity", Judgment::BEHAVIOR, |others: &Vec<(CompactString, u32)>| {
             others.iter().map(|(name, number)| format!("{name} {}", hex32(*number))).collect::<Vec<_>>().join(", ")
         }),
-        origins: positioned("origins", Judgment::NONE, |origins: &Vec<(IdentityNumber, FactOrigin)>| {
-            origins.iter().map(|(number, from)| format!("{}: {}", number.name(), origin(from))).collect::<Vec<_>>().join("; ")
+        origins: each_positioned("origins", |(number, from): &(IdentityNumber, FactOrigin)| {
+            format!("{}: {}", number.name(), origin(from))
         }),
     });
 }

@@ -3,7 +3,8 @@
 use super::bindings;
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, fact, fact_as, judged, list, or_default, positioned, slice, text, Comparison, Elements, POSITION,
+    compare_fields, each, each_positioned, fact, fact_as, joined, judged, list, or_default, slice, text, Comparison,
+    Elements, POSITION,
 };
 use super::conditions::{conditions, restricted};
 use super::show::Show;
@@ -161,7 +162,7 @@ fn variants() -> Elements<ItemVariant> {
         let all: Vec<&str> = models.chain(variant.buses.iter().map(|bus| bus.name())).collect();
         format!("on {}", all.join(", "))
     })
-    .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR)
+    .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR)
 }
 
 /// Compares the old and the new version of a variant. A variant applies only to some models or buses.
@@ -218,9 +219,7 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
         sentinels: slice(sentinels),
         step: judged("step", stated_effects),
         machine: or_default(machine_unit),
-        conversions: positioned("examples of conversions", Judgment::NONE, |examples: &Vec<Conversion>| {
-            examples.iter().map(conversion).collect::<Vec<_>>().join("; ")
-        }),
+        conversions: each_positioned("examples of conversions", conversion),
     });
 }
 
@@ -242,8 +241,7 @@ fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
 fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], comparison: &mut Comparison<'_>) {
     let numbers = |list: &[(Value, CompactString)]| list.iter().map(|(raw, _)| raw.clone()).collect::<Vec<_>>();
     fact("special value", Judgment::API_AND_BEHAVIOR)(&numbers(old), &numbers(new), comparison);
-    let meanings =
-        |list: &[(Value, CompactString)]| list.iter().map(|(_, name)| name.show()).collect::<Vec<_>>().join("; ");
+    let meanings = |list: &[(Value, CompactString)]| joined(list, |(_, name)| name.show());
     comparison.texts("meaning of special values", meanings(old), meanings(new), Judgment::NONE);
 }
 
@@ -270,7 +268,7 @@ fn behavior(old: &Behavior, new: &Behavior, comparison: &mut Comparison<'_>) {
         effective: judged("takes effect", stated_effects),
         write_when: conditions("writable while"),
         writable_values: restricted("writable values"),
-        side_effects: fact_as("side effects", Judgment::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
         self_clearing: fact("cleared by the device", Judgment::BEHAVIOR),
         write_once: fact("writable only once", Judgment::BEHAVIOR),
         backup: fact("part of a backup", Judgment::BEHAVIOR),

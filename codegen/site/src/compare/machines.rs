@@ -20,7 +20,7 @@ pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut C
         transitions: list(transitions(), transition),
         outcomes: list(
             Elements::titled(|outcomes: &CommandOutcomes| format!("command {} by state", outcomes.name))
-                .judged(|_| Judgment::BEHAVIOR_COMPATIBLE, |_| Judgment::BEHAVIOR),
+                .judged(Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR),
             command_outcomes,
         ),
         documentation, doubts, stated_by,
@@ -32,7 +32,7 @@ fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
     Elements {
         name: |pattern| pattern.name.to_string(),
         position: bits,
-        ..Elements::titled(title).judged(|_| Judgment::API, |_| Judgment::API)
+        ..Elements::titled(title).judged(Judgment::API, Judgment::API)
     }
 }
 
@@ -54,7 +54,7 @@ fn transitions() -> Elements<Transition> {
         let command = command.map_or_else(|| "without a command".to_owned(), |command| format!("by {command}"));
         format!("transition from {from} to {} {command}", transition.to)
     })
-    .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR)
+    .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR)
 }
 
 fn transition(old: &Transition, new: &Transition, comparison: &mut Comparison<'_>) {
@@ -72,7 +72,7 @@ fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &m
         availability,
         cells: list(
             Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
-                .judged(|_| Judgment::BEHAVIOR, |_| Judgment::BEHAVIOR),
+                .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR),
             state_outcome,
         ),
         documentation,

@@ -1,7 +1,9 @@
 //! Compares command protocols: messages, parameter spaces and framing.
 
 use super::change::{Effect, Judgment};
-use super::comparison::{compare_fields, fact, fact_as, list, positioned, Comparison, Elements, KEY, POSITION};
+use super::comparison::{
+    compare_fields, each, each_positioned, fact, fact_as, list, Comparison, Elements, KEY, POSITION,
+};
 use super::conditions::{conditions, restricted};
 use super::item;
 use super::names::identifier;
@@ -32,22 +34,19 @@ fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
         after: fact("after the message", Judgment::API),
         by_default: fact("default after power-on", Judgment::BEHAVIOR),
         error: fact("error reply", Judgment::API_AND_WIRE),
-        side_effects: fact_as("side effects", Judgment::BEHAVIOR, |effects: &Vec<CompactString>| effects.join("; ")),
+        side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
         accepted_when: conditions("accepted while"),
         names, availability,
         accepted_in: restricted("accepted in"),
-        examples: positioned("examples", Judgment::NONE, |list: &Vec<MessageExample>| examples(list)),
+        examples: each_positioned("examples", example),
         documentation, doubts,
     }, "follows from the framing" => [address, check_from], POSITION => [origin]);
 }
 
 /// Formats the example frames of a message without their source positions.
-pub(super) fn examples(examples: &[MessageExample]) -> String {
-    let example = |example: &MessageExample| {
-        let text = described(example.documentation.as_deref());
-        format!("{} → {} {text}", bytes(&example.request), bytes(&example.reply)).trim_end().to_owned()
-    };
-    examples.iter().map(example).collect::<Vec<_>>().join("; ")
+pub(super) fn example(example: &MessageExample) -> String {
+    let text = described(example.documentation.as_deref());
+    format!("{} → {} {text}", bytes(&example.request), bytes(&example.reply)).trim_end().to_owned()
 }
 
 fn completion(completion: &Completion) -> String {

@@ -2,19 +2,17 @@
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, fact, fact_as, judged, list, optional, part, slice, text, Comparison, Elements, COMPARED, KEY,
-    POSITION,
+    compare_fields, each, fact, fact_as, judged, list, optional, or_default, part, slice, text, Comparison, Elements,
+    COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
 use super::ethercat::mailbox;
 use super::identity::identity;
 use super::show::index;
-use super::slots::{compare_slots, Use};
+use super::slots::{self, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, item, pdos, profinet, types};
-use lexibus_codegen::ir::{
-    Catalog, Group, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension, SubslotName,
-};
+use lexibus_codegen::ir::{Catalog, Module, ModuleUse, ObjectBuses, ProcessData, Slot, SubExtension};
 
 /// Compares slots, which are paired by number.
 pub(super) fn slots() -> Elements<Slot> {
@@ -43,24 +41,16 @@ pub(super) fn key(module: &Module) -> String {
 
 /// Compares which modules fit a device, and into which slots each module fits.
 pub(super) fn compare_uses(old: &[ModuleUse], new: &[ModuleUse], comparison: &mut Comparison<'_>) {
-    let uses = |catalog: &Catalog, uses: &[ModuleUse]| -> Vec<Use> {
-        let used = |one: &ModuleUse| {
-            let (title, key) = match catalog.modules.get(one.module.0 as usize) {
-                Some(module) => (format!("module {} ({})", module.name, key(module)), key(module)),
-                None => (format!("module number {}", one.module.0), one.module.0.to_string()),
-            };
-            Use { title, key, slots: one.places.clone() }
-        };
-        uses.iter().map(used).collect()
+    let used = |catalog: &Catalog, one: &ModuleUse| {
+        let module = catalog.modules.get(one.module.0 as usize).map(|module| (module.name.as_str(), key(module)));
+        Use::new("module", one.module.0, module, &one.places)
     };
-    let (old_catalog, new_catalog) = comparison.catalogs;
-    compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+    slots::compare_uses(old, new, used, comparison);
 }
 
 /// Compares all facts of a module.
 pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_>) {
-    let all =
-        |module: &'_ Module| -> Vec<Group> { module.fixed_objects.iter().chain(&module.groups).cloned().collect() };
+    let all = |module: &Module| [module.fixed_objects.as_slice(), &module.groups].concat();
     compare_fields!(Module, old, new, comparison, {
         class: part("module", fact("class", Judgment::BEHAVIOR)),
         name: part("module", judged("name", renamed)),
@@ -69,10 +59,9 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         revision: part("module", text("revision")),
         identity: part("module", identity),
         comments: part("module", text("comments")),
-        documentation: part("module", documentation),
+        documentation: part("module", or_default(documentation)),
         fixed_objects: |_: &_, _: &_, comparison: &mut Comparison<'_>| {
-            let (old, new) = (all(old), all(new));
-            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
+            groups::compare(&all(old), &all(new), comparison);
         },
         sub_extensions: list(
             Elements::titled(|extension: &SubExtension| format!("entries added to {}", index(&extension.index))),
@@ -89,9 +78,7 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
         attributes: part("module", fact("attributes", Judgment::BEHAVIOR)),
         submodules: part("module", slice(profinet::compare_uses)),
         subslots: part("module", fact("subslots", Judgment::BEHAVIOR)),
-        subslot_names: part("module", fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| {
-            profinet::subslot_names(list)
-        })),
+        subslot_names: part("module", each("names of subslots", Judgment::NONE, profinet::subslot_name)),
         profiles: part("module", fact("profiles", Judgment::BEHAVIOR)),
         extensions: part("module", extensions),
     }, KEY => [number, id], COMPARED => [types, groups], POSITION => [origin]);

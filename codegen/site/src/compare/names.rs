@@ -20,8 +20,8 @@ pub(super) struct Identifiers {
 impl Identifiers {
     /// Returns the identifiers for these groups. An identifier is created from the name; if several elements have the
     /// same name, also from the address.
-    pub fn of(groups: &[&Group]) -> Self {
-        let name_requests: Vec<NameRequest<'_>> = groups.iter().flat_map(|group| name_requests(group)).collect();
+    pub fn of(groups: &[Group]) -> Self {
+        let name_requests: Vec<NameRequest<'_>> = groups.iter().flat_map(name_requests).collect();
         let mut names = unique(&name_requests, &[], Case::Snake).into_iter();
         let mut identifiers = Identifiers { groups: Vec::new(), items: Vec::new() };
         for group in groups {

@@ -6,7 +6,7 @@ use super::comparison::{
 };
 use super::names::identifier;
 use super::pairing::{Key, Matching};
-use super::show::index;
+use super::show::{index, indices};
 use super::types;
 use lexibus_codegen::facts::cob_id::{self, CobId};
 use lexibus_codegen::facts::pdo::title;
@@ -22,7 +22,7 @@ pub(super) fn compare(old: &ProcessData, new: &ProcessData, buses: ObjectBuses, 
     compare_fields!(ProcessData, old, new, comparison, {
         pdos: |old: &Vec<Pdo>, new: &Vec<Pdo>, comparison: &mut Comparison<'_>| pdos(old, new, buses, comparison),
         sync_managers: list(Elements::titled(|sync_manager: &SyncManager| format!("sync manager {}", sync_manager.number))
-            .judged(|_| Judgment::WIRE, |_| Judgment::WIRE), sync_manager),
+            .judged(Judgment::WIRE, Judgment::WIRE), sync_manager),
         images: list(images(), image),
     });
 }
@@ -73,10 +73,9 @@ fn pdo(old: &Pdo, new: &Pdo, comparison: &mut Comparison<'_>) {
 }
 
 fn excludes(old: &[u16], new: &[u16], comparison: &mut Comparison<'_>) {
-    let text = |list: &[u16]| list.iter().map(index).collect::<Vec<_>>().join(", ");
     let is_more = new.iter().any(|index| !old.contains(index));
     let judgment = if is_more { Judgment::BEHAVIOR } else { Judgment::BEHAVIOR_COMPATIBLE };
-    comparison.texts("excludes", text(old), text(new), judgment);
+    comparison.texts("excludes", indices(old), indices(new), judgment);
 }
 
 fn communication(

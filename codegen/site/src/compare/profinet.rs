@@ -1,13 +1,15 @@
 //! Compares PROFINET descriptions: device access points, submodules, records and diagnosis.
 
+use std::slice::from_ref;
+
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, fact, fact_as, judged, list, optional, part, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, each, fact, fact_as, judged, list, optional, or_default, part, slice, text, Comparison, Elements,
+    KEY, POSITION,
 };
-use super::ethercat::joined;
 use super::identity::identity;
 use super::show::{index, Show};
-use super::slots::{compare_slots, Use};
+use super::slots::{self, Use};
 use super::texts::{documentation, extensions, renamed};
 use super::{groups, pdos, types};
 use lexibus_codegen::facts;
@@ -33,7 +35,7 @@ pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, compariso
         send_clocks: fact("send clock factors", Judgment::BEHAVIOR),
         reduction_ratios: fact("reduction ratios", Judgment::BEHAVIOR),
         places: fact("slots of the device access point", Judgment::BEHAVIOR),
-        subslot_names: fact_as("names of subslots", Judgment::NONE, |list: &Vec<SubslotName>| subslot_names(list)),
+        subslot_names: each("names of subslots", Judgment::NONE, subslot_name),
         vendor_blocks: list(
             Elements::titled(|block: &VendorBlock| format!("vendor block {}/{}", hex16(block.api), hex16(block.identifier))),
             vendor_block,
@@ -47,28 +49,24 @@ fn lengths(lengths: &IoLengths) -> String {
     format!("input {}, output {}, both {}", input.show(), output.show(), data.show())
 }
 
-/// Formats subslot numbers with their names.
-pub(super) fn subslot_names(subslots: &[SubslotName]) -> String {
-    joined(subslots, |subslot| {
-        let SubslotName { number, name, names } = subslot;
-        format!("{number} {name} {}", names.show()).trim_end().to_owned()
-    })
+/// Formats a subslot number with its names.
+pub(super) fn subslot_name(subslot: &SubslotName) -> String {
+    let SubslotName { number, name, names } = subslot;
+    format!("{number} {name} {}", names.show()).trim_end().to_owned()
 }
 
 fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Comparison<'_>) {
     compare_fields!(VendorBlock, old, new, comparison, {
         record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
-            comparison.in_types_of_catalog(|comparison| groups::compare(&[old], &[new], comparison));
+            comparison.in_types_of_catalog(|comparison| groups::compare(from_ref(old), from_ref(new), comparison));
         },
-        menus: fact_as("menus", Judgment::NONE, |list: &Vec<Menu>| menus(list)),
+        menus: each("menus", Judgment::NONE, menu),
     }, KEY => [api, identifier]);
 }
 
-fn menus(menus: &[Menu]) -> String {
-    joined(menus, |menu| {
-        let Menu { id, name, names, targets } = menu;
-        format!("{id} {name} ({}): {}", names.show(), targets.show())
-    })
+fn menu(menu: &Menu) -> String {
+    let Menu { id, name, names, targets } = menu;
+    format!("{id} {name} ({}): {}", names.show(), targets.show())
 }
 
 /// Returns the key that pairs submodules: their ident number and identifier.
@@ -82,16 +80,14 @@ pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Compa
         api: part("submodule", fact_as("API", Judgment::WIRE, |api| hex16(*api))),
         name: part("submodule", judged("name", renamed)),
         names: part("submodule", text("name in other languages")),
-        documentation: part("submodule", documentation),
+        documentation: part("submodule", or_default(documentation)),
         identity: part("submodule", identity),
         input: optional("input", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
         output: optional("output", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
         status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgment::WIRE)),
-        records: |old: &Vec<Group>, new: &Vec<Group>, comparison: &mut Comparison<'_>| {
-            groups::compare(&old.iter().collect::<Vec<_>>(), &new.iter().collect::<Vec<_>>(), comparison);
-        },
+        records: slice(groups::compare),
         f_parameters: optional("F-parameters", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, f_parameters),
-        menus: part("submodule", fact_as("menus", Judgment::NONE, |list: &Vec<Menu>| menus(list))),
+        menus: part("submodule", each("menus", Judgment::NONE, menu)),
         graphics: part("submodule", fact("pictures", Judgment::NONE)),
         attributes: part("submodule", fact("attributes", Judgment::BEHAVIOR)),
         extensions: part("submodule", extensions),
@@ -111,8 +107,8 @@ fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
     compare_fields!(IoData, old, new, comparison, {
         image: pdos::image,
         consistent: fact("consistent as a whole", Judgment::BEHAVIOR),
-        items: fact_as("data items", Judgment::NONE, |list: &Vec<IoItem>| joined(list, io_item)),
-        channels: fact_as("channels", Judgment::BEHAVIOR, |list: &Vec<IoChannel>| joined(list, channel)),
+        items: each("data items", Judgment::NONE, io_item),
+        channels: each("channels", Judgment::BEHAVIOR, channel),
     });
 }
 
@@ -140,7 +136,7 @@ fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Compariso
             crc.as_ref().map(index).unwrap_or_default()
         }),
         parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
-            .judged(|_| Judgment::API_AND_WIRE, |_| Judgment::API_AND_WIRE), f_parameter),
+            .judged(Judgment::API_AND_WIRE, Judgment::API_AND_WIRE), f_parameter),
     }, POSITION => [origin]);
 }
 
@@ -148,8 +144,8 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
     compare_fields!(FParameter, old, new, comparison, {
         default: fact("default", Judgment::BEHAVIOR),
         label: text("name of the default"),
-        allowed: fact_as("range", Judgment::BEHAVIOR, |list: &Vec<(i128, i128)>| {
-            joined(list, |(first, last)| facts::types::numbers(*first, Some(*last)))
+        allowed: each("range", Judgment::BEHAVIOR, |(first, last): &(i128, i128)| {
+            facts::types::numbers(*first, Some(*last))
         }),
         allowed_labels: fact("names of the range", Judgment::NONE),
         changeable: fact("changeable", Judgment::BEHAVIOR),
@@ -159,20 +155,12 @@ fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'
 
 /// Compares which submodules fit a device or module, and into which subslots each submodule fits.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
-    let uses = |catalog: &Catalog, uses: &[SubmoduleUse]| -> Vec<Use> {
-        let used = |one: &SubmoduleUse| {
-            let (title, key) = match catalog.submodules.get(one.submodule.0 as usize) {
-                Some(submodule) => {
-                    (format!("submodule {} ({})", submodule.name, submodule_key(submodule)), submodule_key(submodule))
-                }
-                None => (format!("submodule number {}", one.submodule.0), one.submodule.0.to_string()),
-            };
-            Use { title, key, slots: one.places.clone() }
-        };
-        uses.iter().map(used).collect()
+    let used = |catalog: &Catalog, one: &SubmoduleUse| {
+        let submodule = catalog.submodules.get(one.submodule.0 as usize);
+        let submodule = submodule.map(|submodule| (submodule.name.as_str(), submodule_key(submodule)));
+        Use::new("submodule", one.submodule.0, submodule, &one.places)
     };
-    let (old_catalog, new_catalog) = comparison.catalogs;
-    compare_slots(&uses(old_catalog, old), &uses(new_catalog, new), comparison);
+    slots::compare_uses(old, new, used, comparison);
 }
 
 /// Compares user-defined diagnosis structures, which are paired by API and identifier.
@@ -189,11 +177,10 @@ fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparis
     compare_fields!(UnitDiagnosis, old, new, comparison, {
         name, names, documentation,
         fields: list(Elements {
-            title: |field: &UnitDiagnosisField| format!("field {}", field.name),
-            name: |field| field.name.to_string(),
+            name: |field: &UnitDiagnosisField| field.name.to_string(),
             position: |field| field.bit_offset.to_string(),
-            added: |_| Judgment::API_AND_WIRE,
-            removed: |_| Judgment::API_AND_WIRE,
+            added: Judgment::API_AND_WIRE,
+            ..Elements::titled(|field| format!("field {}", field.name))
         }, diagnosis_field),
         extensions,
     }, KEY => [api, identifier], POSITION => [origin]);

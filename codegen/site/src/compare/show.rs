@@ -124,6 +124,11 @@ pub(super) fn index(number: &u16) -> String {
 }
 
 /// Formats an identity number in hexadecimal notation. The text is empty if there is no number.
+/// Formats a list of indices.
+pub(super) fn indices(numbers: &[u16]) -> String {
+    numbers.iter().map(index).collect::<Vec<_>>().join(", ")
+}
+
 pub(super) fn ident(number: &Option<u32>) -> String {
     number.map(hex32).unwrap_or_default()
 }

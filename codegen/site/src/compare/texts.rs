@@ -1,27 +1,21 @@
 //! Compares texts about an element. Except for names, changes to texts have no effect.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, or_default, positioned, text, Comparison, CITATION};
+use super::comparison::{compare_fields, each_positioned, joined, positioned, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
 use lexibus_codegen::facts::words::{fact_name, origin_name, PLAIN};
 use lexibus_codegen::ir::{
-    Documentation, Doubt, Doubts, Extensions, FactOrigin, FactOrigins, Manual, ManualSection, OverlayOrigin,
+    Documentation, Doubt, Doubts, Extension, Extensions, FactOrigin, FactOrigins, Manual, ManualSection, OverlayOrigin,
 };
 
 /// Compares two descriptions of an element.
-pub(super) fn documentation(
-    old: &Option<Box<Documentation>>,
-    new: &Option<Box<Documentation>>,
-    comparison: &mut Comparison<'_>,
-) {
-    or_default(|old, new, comparison: &mut Comparison<'_>| {
-        compare_fields!(Documentation, old, new, comparison, {
-            text: text("description"),
-            translations: text("description in other languages"),
-            text_from: positioned("origin of the description", Judgment::NONE, text_from),
-        }, CITATION => [cite]);
-    })(old, new, comparison);
+pub(super) fn documentation(old: &Documentation, new: &Documentation, comparison: &mut Comparison<'_>) {
+    compare_fields!(Documentation, old, new, comparison, {
+        text: text("description"),
+        translations: text("description in other languages"),
+        text_from: positioned("origin of the description", text_from),
+    }, CITATION => [cite]);
 }
 
 /// Formats the origin of a fact without its position in the file.
@@ -39,15 +33,14 @@ pub(super) fn origin(origin: &FactOrigin) -> String {
 
 /// Compares the origins of the facts of an item or group.
 pub(super) fn origins(old: &FactOrigins, new: &FactOrigins, comparison: &mut Comparison<'_>) {
-    positioned("origins", Judgment::NONE, |origins: &FactOrigins| {
-        let all = origins.0.iter().map(|(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)));
-        all.collect::<Vec<_>>().join("; ")
+    positioned("origins", |origins: &FactOrigins| {
+        joined(&origins.0, |(fact, from)| format!("{}: {}", fact_name(*fact), origin(from)))
     })(old, new, comparison);
 }
 
 /// Compares the origins of a definition.
 pub(super) fn stated_by(old: &Option<Box<FactOrigin>>, new: &Option<Box<FactOrigin>>, comparison: &mut Comparison<'_>) {
-    positioned("origin", Judgment::NONE, text_from)(old, new, comparison);
+    positioned("origin", text_from)(old, new, comparison);
 }
 
 fn text_from(from: &Option<Box<FactOrigin>>) -> String {
@@ -63,9 +56,8 @@ pub(super) fn described(documentation: Option<&Documentation>) -> String {
 
 /// Compares ambiguities in the source and the related assumptions.
 pub(super) fn doubts(old: &Doubts, new: &Doubts, comparison: &mut Comparison<'_>) {
-    positioned("assumptions", Judgment::NONE, |doubts: &Doubts| doubts.iter().map(doubt).collect::<Vec<_>>().join(" "))(
-        old, new, comparison,
-    );
+    let text = |doubts: &Doubts| doubts.iter().map(doubt).collect::<Vec<_>>().join(" ");
+    positioned("assumptions", text)(old, new, comparison);
 }
 
 fn doubt(doubt: &Doubt) -> String {
@@ -75,28 +67,19 @@ fn doubt(doubt: &Doubt) -> String {
 
 /// Compares extensions: facts of the source for which the intermediate representation has no field.
 pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Comparison<'_>) {
-    positioned("further keys", Judgment::NONE, |extensions: &Extensions| {
-        extensions
-            .iter()
-            .map(|extension| format!("{} = {}", extension.key, extension.value))
-            .collect::<Vec<_>>()
-            .join("; ")
-    })(old, new, comparison);
+    let text = |extension: &Extension| format!("{} = {}", extension.key, extension.value);
+    each_positioned("further keys", text)(old, new, comparison);
 }
 
 /// Compares the manuals on which the descriptions are based.
-pub(super) fn manual(old: &Option<Box<Manual>>, new: &Option<Box<Manual>>, comparison: &mut Comparison<'_>) {
-    or_default(|old, new, comparison: &mut Comparison<'_>| {
-        compare_fields!(Manual, old, new, comparison, {
-            title: text("title"),
-            edition: text("edition"),
-            language: text("language"),
-            documentation: text("description"),
-            sections: positioned("sections", Judgment::NONE, |sections: &Vec<ManualSection>| {
-                sections.iter().map(|section| section.title.as_str()).collect::<Vec<_>>().join("; ")
-            }),
-        }, CITATION => [counts]);
-    })(old, new, comparison);
+pub(super) fn manual(old: &Manual, new: &Manual, comparison: &mut Comparison<'_>) {
+    compare_fields!(Manual, old, new, comparison, {
+        title: text("title"),
+        edition: text("edition"),
+        language: text("language"),
+        documentation: text("description"),
+        sections: each_positioned("sections", |section: &ManualSection| section.title.to_string()),
+    }, CITATION => [counts]);
 }
 
 /// Returns the effects of renaming an element. The Rust method, field or constant of the element has this name in

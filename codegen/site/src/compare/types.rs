@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use super::change::{Effect, Judgment};
 use super::comparison::{compare_fields, fact, fact_as, judged, slices, Comparison, Elements, COMPARED, POSITION};
-use super::pairing::pairs;
 use super::show::Show;
 use super::texts::renamed;
 use lexibus_codegen::facts::types::{self, definition};
@@ -66,7 +65,7 @@ pub(super) fn compare_unused(comparison: &mut Comparison<'_>) {
     let (old_compared, new_compared) = comparison.compared_types();
     let (old, new) = (unused(old_types, old_compared), unused(new_types, new_compared));
     let elements = Elements::<(TypeId, String)>::titled(|(_, name)| format!("type {name}"))
-        .judged(|_| Judgment::API_COMPATIBLE, |_| Judgment::API);
+        .judged(Judgment::API_COMPATIBLE, Judgment::API);
     slices(
         &old,
         &new,
@@ -188,12 +187,11 @@ fn kind(shape: &Shape) -> &'static str {
 }
 
 fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
-    let elements = Elements::<Field> {
-        title: |field| format!("field {}", field.name),
-        name: |field| field.name.to_string(),
+    let elements = Elements {
+        name: |field: &Field| field.name.to_string(),
         position: |field| field.bit_offset.to_string(),
-        added: |_| Judgment::API_AND_WIRE,
-        removed: |_| Judgment::API_AND_WIRE,
+        added: Judgment::API_AND_WIRE,
+        ..Elements::titled(|field| format!("field {}", field.name))
     };
     let compare_field = |old: &Field, new: &Field, comparison: &mut Comparison<'_>| {
         compare_fields!(Field, old, new, comparison, {
@@ -208,25 +206,17 @@ fn fields(old: &[Field], new: &[Field], comparison: &mut Comparison<'_>) {
 }
 
 fn bit_fields(old: &[BitFieldEntry], new: &[BitFieldEntry], comparison: &mut Comparison<'_>) {
-    let is_reserved = |field: &BitFieldEntry| matches!(field.meaning, BitMeaning::Reserved { .. });
-    let judge = move |field: &BitFieldEntry, judgment| if is_reserved(field) { Judgment::NONE } else { judgment };
-    let name = |field: &BitFieldEntry| match field.when.is_some() {
-        true => format!("{} {}", field.name, bits(field)),
-        false => field.name.to_string(),
+    let elements = Elements {
+        name: |field: &BitFieldEntry| match field.when.is_some() {
+            true => format!("{} {}", field.name, bits(field)),
+            false => field.name.to_string(),
+        },
+        position: bits,
+        label: |field| field.name.to_string(),
+        has_effect: |field| !matches!(field.meaning, BitMeaning::Reserved { .. }),
+        ..Elements::titled(bits).judged(Judgment::API_COMPATIBLE, Judgment::API)
     };
-    for (old, new) in pairs(old, new, name, bits) {
-        let Some(field) = new.or(old) else { continue };
-        comparison.within(&bits(field), |comparison| match (old, new) {
-            (Some(old), Some(new)) => bit_field(old, new, comparison),
-            (Some(old), None) => {
-                comparison.push("removed", old.name.to_string(), String::new(), judge(old, Judgment::API));
-            }
-            _ => {
-                let judgment = judge(field, Judgment::API_COMPATIBLE);
-                comparison.push("added", String::new(), field.name.to_string(), judgment);
-            }
-        });
-    }
+    slices(old, new, &elements, bit_field, comparison);
 }
 
 fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparison<'_>) {
@@ -237,8 +227,7 @@ fn bit_field(old: &BitFieldEntry, new: &BitFieldEntry, comparison: &mut Comparis
         when: fact("applies while", Judgment::API_AND_BEHAVIOR),
         trigger: fact("acts on", Judgment::BEHAVIOR),
         access: fact("access", Judgment::API),
-        availability: super::conditions::availability,
-        documentation,
+        availability, documentation,
     }, COMPARED => [offset, bits], POSITION => [at]);
 }
 
@@ -286,21 +275,18 @@ fn meaning(bit_meaning: &BitMeaning) -> &'static str {
 }
 
 fn values(old: &[EnumValue], new: &[EnumValue], comparison: &mut Comparison<'_>) {
-    // A generated enumeration has a variant for each value that is not a range, and Rust code may match all variants.
-    let is_variant = |value: &EnumValue| value.last.is_none();
-    let judge = move |value: &EnumValue| if is_variant(value) { Judgment::API } else { Judgment::NONE };
-    let key = |value: &EnumValue| match value.when.as_ref() {
-        Some(condition) => format!("{} while {}", value.name, condition.show()),
-        None => value.name.to_string(),
+    let elements = Elements {
+        name: |value: &EnumValue| match value.when.as_ref() {
+            Some(condition) => format!("{} while {}", value.name, condition.show()),
+            None => value.name.to_string(),
+        },
+        position: |value| value.value.to_string(),
+        label: |value| value.name.to_string(),
+        // A generated enumeration has a variant for each value that is not a range, and Rust code may match all variants.
+        has_effect: |value| value.last.is_none(),
+        ..Elements::titled(|value| format!("value {}", number(value))).judged(Judgment::API, Judgment::API)
     };
-    for (old, new) in pairs(old, new, key, |value| value.value.to_string()) {
-        let Some(either) = new.or(old) else { continue };
-        comparison.within(&format!("value {}", number(either)), |comparison| match (old, new) {
-            (Some(old), Some(new)) => value(old, new, comparison),
-            (Some(old), None) => comparison.push("removed", old.name.to_string(), String::new(), judge(old)),
-            _ => comparison.push("added", String::new(), either.name.to_string(), judge(either)),
-        });
-    }
+    slices(old, new, &elements, value, comparison);
 }
 
 fn number(value: &EnumValue) -> String {
@@ -315,7 +301,6 @@ fn value(old: &EnumValue, new: &EnumValue, comparison: &mut Comparison<'_>) {
         zone: fact("zone", Judgment::BEHAVIOR),
         names,
         when: fact("applies while", Judgment::BEHAVIOR),
-        availability: super::conditions::availability,
-        documentation,
+        availability, documentation,
     }, COMPARED => [value, last], POSITION => [at]);
 }
