@@ -26,6 +26,7 @@ mod note;
 mod options;
 mod registers;
 pub mod sii;
+mod types;
 mod xml;
 
 pub use note::{Export, Note, NoteKind};

@@ -208,6 +208,11 @@ impl Notes {
         self.add_many(kind, true, subject);
     }
 
+    /// Adds a fact of each kind.
+    pub(super) fn add_all(&mut self, kinds: impl IntoIterator<Item = NoteKind>, subject: Subject<'_>) {
+        kinds.into_iter().for_each(|kind| self.add(kind, subject));
+    }
+
     /// Adds `count` facts. As a count, `true` means one fact and `false` means none.
     pub(super) fn add_many(&mut self, kind: NoteKind, count: impl Into<usize>, subject: Subject<'_>) {
         let count = count.into();

@@ -4,7 +4,8 @@ use std::fmt;
 
 use lexibus_codegen::text::similar;
 
-use super::note::Note;
+use super::note::{Export, NoteKind, Notes, Subject};
+use super::xml::Xml;
 
 /// A fact that the format requires and that neither the source nor the options contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,37 +53,42 @@ impl fmt::Display for Refusal {
 impl std::error::Error for Refusal {}
 
 /// Collects missing facts during an export.
-#[derive(Default)]
-pub(super) struct MissingFacts(Vec<MissingFact>);
+pub(super) struct MissingFacts {
+    facts: Vec<MissingFact>,
+    /// Keys and descriptions of the options of the format.
+    keys: &'static [(&'static str, &'static str)],
+}
 
 impl MissingFacts {
+    pub(super) fn new(keys: &'static [(&'static str, &'static str)]) -> Self {
+        MissingFacts { facts: Vec::new(), keys }
+    }
+
     /// Returns `found`. If `found` is `None`, records the missing fact and returns a default, so that one refusal lists
     /// all missing facts.
-    pub(super) fn require<T: Default>(
-        &mut self,
-        found: Option<T>,
-        key: &'static str,
-        keys: &[(&str, &'static str)],
-    ) -> T {
+    pub(super) fn require<T: Default>(&mut self, found: Option<T>, key: &'static str) -> T {
         found.unwrap_or_else(|| {
-            let what = keys.iter().find(|(known, _)| *known == key).map_or("", |(_, what)| what);
-            if !self.0.iter().any(|fact| fact.key == key) {
-                self.0.push(MissingFact { key, what });
+            let what = self.keys.iter().find(|(known, _)| *known == key).map_or("", |(_, what)| what);
+            if !self.facts.iter().any(|fact| fact.key == key) {
+                self.facts.push(MissingFact { key, what });
             }
             T::default()
         })
     }
 
-    pub(super) fn finish(self, text: String, notes: Vec<Note>) -> Result<super::Export, Refusal> {
-        self.check().map(|()| super::Export { text, notes })
+    /// Returns the exported document, or a refusal if facts are missing. Adds notes on characters and attributes that XML does
+    /// not allow.
+    pub(super) fn finish(self, xml: Xml, mut notes: Notes) -> Result<Export, Refusal> {
+        notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
+        notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
+        self.check().map(|()| Export { text: xml.finish(), notes: notes.finish() })
     }
 
     /// Returns a refusal if facts are missing.
     pub(super) fn check(self) -> Result<(), Refusal> {
-        if self.0.is_empty() {
-            Ok(())
-        } else {
-            Err(Refusal::Missing(self.0))
+        match self.facts.is_empty() {
+            true => Ok(()),
+            false => Err(Refusal::Missing(self.facts)),
         }
     }
 }
@@ -207,10 +213,10 @@ mod tests {
         assert_eq!(parsed::<u32>("a", "0x1F"), Ok(Some(31)));
         assert_eq!(parsed::<u16>("a", "70000").map_err(|text| text.contains("`a` must be a number")), Err(true));
         assert!(parsed::<String>("a", " ").is_err() && parsed::<bool>("a", "yes").is_err());
-        let mut missing = MissingFacts::default();
-        assert_eq!(missing.require(Some(1u32), "one", &[]), 1);
-        assert_eq!(missing.require(None::<u32>, "two", &[("two", "The second.")]), 0);
-        let refusal = missing.finish(String::new(), Vec::new()).expect_err("one is missing");
+        let mut missing = MissingFacts::new(&[("two", "The second.")]);
+        assert_eq!(missing.require(Some(1u32), "one"), 1);
+        assert_eq!(missing.require(None::<u32>, "two"), 0);
+        let refusal = missing.finish(Xml::new(), Notes::default()).expect_err("one is missing");
         assert_eq!(
             refusal.to_string(),
             "the format requires facts that the description does not contain; set `two` (The second)"

@@ -138,10 +138,17 @@ impl Xml {
         }
     }
 
-    /// Writes an empty element with one attribute.
-    pub(super) fn reference(&mut self, name: impl Into<Cow<'static, str>>, attribute: &str, value: impl Display) {
+    /// Writes an empty element with these attributes.
+    pub(super) fn empty(&mut self, name: impl Into<Cow<'static, str>>, attributes: &[(&str, &dyn Display)]) {
         self.open(name);
-        self.attribute(attribute, value);
+        attributes.iter().for_each(|(name, value)| self.attribute(name, value));
+        self.close();
+    }
+
+    /// Writes an element whose child elements contain only text.
+    pub(super) fn leaves(&mut self, name: &'static str, children: &[(&'static str, &dyn Display)]) {
+        self.open(name);
+        children.iter().for_each(|(name, value)| self.leaf(*name, value));
         self.close();
     }
 

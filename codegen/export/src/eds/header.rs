@@ -54,32 +54,19 @@ fn device_info(writer: &mut Writer, context: &Context<'_>, objects: &[&Group]) {
     if !identity.order_code.is_empty() {
         writer.name("OrderCode", &identity.order_code, Subject::Device);
     }
-    const KEYS: [&str; 8] = [
-        "BaudRate_10",
-        "BaudRate_20",
-        "BaudRate_50",
-        "BaudRate_125",
-        "BaudRate_250",
-        "BaudRate_500",
-        "BaudRate_800",
-        "BaudRate_1000",
-    ];
-    for (key, rate) in KEYS.into_iter().zip(BIT_RATES) {
-        writer.flag(key, canopen.bit_rates.contains(&rate));
+    for rate in BIT_RATES {
+        writer.flag(&format!("BaudRate_{rate}"), canopen.bit_rates.contains(&rate));
     }
     writer.flag("SimpleBootUpMaster", canopen.boot_up_master);
     writer.flag("SimpleBootUpSlave", canopen.boot_up_slave);
-    if let Some(granularity) = canopen.granularity {
-        writer.entry("Granularity", granularity);
-    }
+    writer.optional("Granularity", canopen.granularity);
     writer.entry("DynamicChannelsSupported", canopen.dynamic_channels_supported);
     writer.flag("GroupMessaging", canopen.group_messaging);
     pdo_count(writer, "NrOfRXPDO", context, canopen.rx_pdos, objects, 0x1600);
     pdo_count(writer, "NrOfTXPDO", context, canopen.tx_pdos, objects, 0x1A00);
     writer.flag("LSS_Supported", canopen.lss);
-    if canopen.compact_pdo != 0 {
-        writer.entry("CompactPDO", format_args!("0x{:02X}", canopen.compact_pdo));
-    }
+    let compact_pdo = Some(canopen.compact_pdo).filter(|mask| *mask != 0);
+    writer.optional("CompactPDO", compact_pdo.map(|mask| format!("0x{mask:02X}")));
 }
 
 /// Writes the number of PDOs that the source declares. If the source declares no number and the device is not a CANopen
@@ -101,9 +88,7 @@ fn pdo_count(
 }
 
 fn number(writer: &mut Writer, key: &'static str, value: Option<u32>) {
-    if let Some(value) = value {
-        writer.entry(key, format_args!("0x{value:08X}"));
-    }
+    writer.optional(key, value.map(|value| format!("0x{value:08X}")));
 }
 
 fn dummy_usage(out: &mut Section<'_>, context: &Context<'_>) {
@@ -136,21 +121,13 @@ fn commissioning(out: &mut Section<'_>, context: &Context<'_>) {
         return;
     }
     let writer = out.open();
-    if let Some(node_id) = commissioning.node_id {
-        writer.entry("NodeID", node_id);
-    }
+    writer.optional("NodeID", commissioning.node_id);
     writer.plain("NodeName", &commissioning.node_name, Subject::Device);
-    if let Some(rate) = commissioning.bit_rate {
-        writer.entry("Baudrate", rate);
-    }
-    if let Some(net) = commissioning.net_number {
-        writer.entry("NetNumber", net);
-    }
+    writer.optional("Baudrate", commissioning.bit_rate);
+    writer.optional("NetNumber", commissioning.net_number);
     writer.plain("NetworkName", &commissioning.network_name, Subject::Device);
     writer.flag("CANopenManager", commissioning.manager);
-    if let Some(serial) = commissioning.lss_serial_number {
-        writer.entry("LSS_SerialNumber", format_args!("0x{serial:08X}"));
-    }
+    number(writer, "LSS_SerialNumber", commissioning.lss_serial_number);
 }
 
 fn supported_modules(out: &mut Section<'_>, context: &Context<'_>, catalog: &Catalog) {

@@ -190,16 +190,10 @@ impl<'a> Object<'a> {
         let subject = Subject::item(item);
         let data_type = self.data_type(item);
         losses::of_item(item, &mut writer.notes);
-        if let Some(note) = data_type.note {
-            writer.notes.add(note, subject);
-        }
-        if let Some(code) = data_type.code {
-            writer.entry("DataType", format_args!("0x{code:04X}"));
-        }
+        writer.notes.add_all(data_type.note, subject);
+        writer.optional("DataType", data_type.code.map(|code| format!("0x{code:04X}")));
         let (access, is_mappable, note) = access(item.access_on(Bus::CanOpen), item.mappable);
-        if let Some(note) = note {
-            writer.notes.add(note, subject);
-        }
+        writer.notes.add_all(note, subject);
         writer.entry("AccessType", access.name());
         let ty = data_type.ty;
         self.number(writer, "DefaultValue", item.default.as_ref(), ty, Role::Value, subject);
@@ -248,9 +242,7 @@ impl<'a> Object<'a> {
     ) {
         let Some(value) = value else { return };
         let (text, note) = value::text(value, ty, role, self.form());
-        if let Some(note) = note {
-            writer.notes.add(note, subject);
-        }
+        writer.notes.add_all(note, subject);
         if let Some(text) = text {
             let text = writer.one_line(&text, subject);
             writer.entry(key, text);

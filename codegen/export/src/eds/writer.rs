@@ -39,9 +39,16 @@ impl Writer {
     }
 
     /// Writes `key=value`. The value must have no leading or trailing spaces and no line break.
-    pub(super) fn entry(&mut self, key: &'static str, value: impl Display) {
+    pub(super) fn entry(&mut self, key: &str, value: impl Display) {
         self.keys.insert(key.to_ascii_lowercase());
         self.numbered(key, value);
+    }
+
+    /// Writes an entry if its value is `Some`.
+    pub(super) fn optional(&mut self, key: &str, value: Option<impl Display>) {
+        if let Some(value) = value {
+            self.entry(key, value);
+        }
     }
 
     /// Writes an entry like [`entry`](Self::entry), but with a computed key, which extension attributes may repeat.
@@ -50,13 +57,13 @@ impl Writer {
     }
 
     /// Writes an entry with the value 0 or 1.
-    pub(super) fn flag(&mut self, key: &'static str, value: bool) {
+    pub(super) fn flag(&mut self, key: &str, value: bool) {
         self.entry(key, u8::from(value));
     }
 
     /// Writes an entry with a text, unless the text is empty. The text is not quoted, because readers of the file keep
     /// quotation marks as part of the text.
-    pub(super) fn plain(&mut self, key: &'static str, text: &str, subject: Subject<'_>) {
+    pub(super) fn plain(&mut self, key: &str, text: &str, subject: Subject<'_>) {
         if !text.is_empty() {
             let text = self.one_line(text, subject);
             self.entry(key, text);
@@ -65,7 +72,7 @@ impl Writer {
 
     /// Writes an entry with a name. Quotes the name if necessary, because readers of the file remove a pair of
     /// quotation marks around a name.
-    pub(super) fn name(&mut self, key: &'static str, name: &str, subject: Subject<'_>) {
+    pub(super) fn name(&mut self, key: &str, name: &str, subject: Subject<'_>) {
         let name = self.one_line(name, subject);
         self.entry(key, quoted(&name));
     }

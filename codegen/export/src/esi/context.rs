@@ -10,7 +10,6 @@ use super::super::note::Notes;
 use super::super::options::MissingFacts;
 use super::options::TrackedOptions;
 use super::text::hex;
-use super::Options;
 
 /// Data that the writers of all parts of the file use.
 pub(super) struct Context<'a> {
@@ -25,12 +24,6 @@ pub(super) struct Context<'a> {
 }
 
 impl Context<'_> {
-    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
-    /// missing if there is no value.
-    pub(super) fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
-        self.missing.require(given.or(found), key, Options::KEYS)
-    }
-
     /// Returns the ETG.2000 number of a unit, or `None` if ETG.2000 has no number for the symbol. If a unit has no
     /// known symbol, the IR contains the number in place of the symbol, and this function returns the number unchanged.
     pub(super) fn unit(&mut self, symbol: &CompactString) -> Option<String> {

@@ -27,7 +27,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     extras::urls(xml, settings);
     extras::info(xml, context, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
-    let group = context.required(context.options.group(), group, "group");
+    let group = context.missing.require(context.options.group().or(group), "group");
     xml.leaf("GroupType", group);
     dictionary(xml, context, device, |xml, context, types| {
         sync::write(xml, context, device, settings);
@@ -93,9 +93,7 @@ fn profiles(xml: &mut Xml, context: &mut Context<'_>, device: &Device, first: im
     first(xml, context);
     xml.close();
     for number in others {
-        xml.open("Profile");
-        xml.leaf("ProfileNo", number);
-        xml.close();
+        xml.leaves("Profile", &[("ProfileNo", &number)]);
     }
 }
 
@@ -103,7 +101,7 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     let is_known = |ports: &str| ports.len() <= 4 && ports.bytes().all(|port| b"YKH ,".contains(&port));
     let ports = settings.physics.to_string();
     let ports = Some(ports).filter(|ports| context.is_esi || !ports.is_empty());
-    let ports = context.required(context.options.physics(), ports, "physics");
+    let ports = context.missing.require(context.options.physics().or(ports), "physics");
     if !is_known(&ports) {
         context.notes.add(NoteKind::Spelling, Subject::Named("Physics"));
         return xml.attribute("Physics", "");
@@ -118,8 +116,8 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settin
     xml.open("Type");
     // Both numbers are required, because a master identifies the device by them.
     if !context.is_esi {
-        context.required(product, None, "product-code");
-        context.required(revision, None, "revision");
+        context.missing.require(product, "product-code");
+        context.missing.require(revision, "revision");
     }
     xml.optional("ProductCode", product.map(|code| hex(code, 8)));
     xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
@@ -127,7 +125,8 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settin
     extras::of_type(xml, settings);
     let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
     let order_code = if context.is_esi { Some(&identity.order_code) } else { named };
-    let order_code = context.required(options.order_code(), order_code.map(CompactString::to_string), "order-code");
+    let order_code =
+        context.missing.require(options.order_code().or(order_code.map(CompactString::to_string)), "order-code");
     xml.content(order_code);
     xml.close();
 }

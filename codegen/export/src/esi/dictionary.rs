@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::object;
 use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, name, names};
-use super::types::{basic_name, is_self_named, AddedField, AddedType, Types};
+use super::types::{basic_name, is_self_named, AddedType, SubItem, Types};
 use super::Context;
 use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
@@ -108,10 +108,7 @@ fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
 }
 
 fn array_info(xml: &mut Xml, lower: i64, count: u32) {
-    xml.open("ArrayInfo");
-    xml.leaf("LBound", lower);
-    xml.leaf("Elements", count);
-    xml.close();
+    xml.leaves("ArrayInfo", &[("LBound", &lower), ("Elements", &count)]);
 }
 
 /// Writes a named value of an enumeration.
@@ -132,51 +129,36 @@ pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue,
 fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
     let Shape::Record(fields) = &def.shape else { return };
     let unique = record::field_names(types, at);
-    let facts = types.uses.get(&at).cloned().unwrap_or_default();
-    for (position, (field, name)) in fields.iter().zip(&unique).enumerate() {
-        notes.add_many(NoteKind::Renamed, *name != field.name, Subject::Named(&def.name));
+    let mut facts = types.uses.get(&at).cloned().unwrap_or_default().into_iter();
+    for (field, name) in fields.iter().zip(unique) {
+        notes.add_many(NoteKind::Renamed, name != field.name, Subject::Named(&def.name));
         let (ty, _) = types.reference(field.ty, notes, Subject::Named(&def.name));
-        xml.open("SubItem");
-        xml.optional_leaf("SubIdx", field.sub_index);
-        sub_item(
-            xml,
-            &SubItem { name, ty: &ty, bits: field.bits, offset: field.bit_offset },
-            facts.get(position),
-            notes,
-        );
-        xml.close();
+        let (sub_index, bits, offset) = (field.sub_index, field.bits, field.bit_offset);
+        sub_item(xml, &SubItem { name, sub_index, ty, bits, offset, facts: facts.next() }, notes);
     }
 }
 
-/// The properties that every SubItem element has.
-struct SubItem<'p> {
-    name: &'p CompactString,
-    ty: &'p CompactString,
-    bits: u32,
-    offset: u32,
-}
-
-fn sub_item(xml: &mut Xml, item: &SubItem<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
-    let subject = Subject::Named(item.name);
-    xml.leaf("Name", item.name);
-    if let Some(facts) = facts {
-        for local in facts.names.iter() {
-            name(xml, "DisplayName", local, notes, subject);
-        }
+fn sub_item(xml: &mut Xml, item: &SubItem, notes: &mut Notes) {
+    let subject = Subject::Named(&item.name);
+    xml.open("SubItem");
+    xml.optional_leaf("SubIdx", item.sub_index);
+    xml.leaf("Name", &item.name);
+    for local in item.facts.iter().flat_map(|facts| facts.names.iter()) {
+        name(xml, "DisplayName", local, notes, subject);
     }
-    xml.leaf("Type", item.ty);
-    if let Some(facts) = facts {
-        documentation(xml, "Comment", facts.documentation.as_deref(), notes, subject);
-    }
+    xml.leaf("Type", &item.ty);
+    let text = item.facts.as_ref().and_then(|facts| facts.documentation.as_deref());
+    documentation(xml, "Comment", text, notes, subject);
     xml.leaf("BitSize", item.bits);
     xml.leaf("BitOffs", item.offset);
-    if let Some(facts) = facts {
+    if let Some(facts) = &item.facts {
         xml.open("Flags");
         flags(xml, facts, None, notes, subject);
         xml.leaf("Backup", u8::from(facts.backup));
         xml.leaf("Setting", u8::from(facts.setting));
         xml.close();
     }
+    xml.close();
 }
 
 /// Writes the access rights, category, PDO mapping and safety mapping of an object or sub-item.
@@ -216,28 +198,13 @@ pub(super) fn flags(
 
 fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     xml.open("DataType");
-    match added {
-        AddedType::Basic { name, bits } => {
-            xml.leaf("Name", name);
-            xml.leaf("BitSize", bits);
-        }
-        AddedType::Array { name, element, bits, count } => {
-            xml.leaf("Name", name);
-            xml.leaf("BaseType", element);
-            xml.leaf("BitSize", bits);
-            array_info(xml, 1, *count);
-        }
-        AddedType::Record { name, bits, fields } => {
-            xml.leaf("Name", name);
-            xml.leaf("BitSize", bits);
-            for AddedField { name, sub_index, ty, bits, offset, facts } in fields {
-                xml.open("SubItem");
-                xml.leaf("SubIdx", sub_index);
-                sub_item(xml, &SubItem { name, ty, bits: *bits, offset: *offset }, Some(facts), notes);
-                xml.close();
-            }
-        }
+    xml.leaf("Name", &added.name);
+    xml.optional_leaf("BaseType", added.array.as_ref().map(|(element, _)| element));
+    xml.leaf("BitSize", added.bits);
+    if let Some((_, count)) = added.array {
+        array_info(xml, 1, count);
     }
+    added.fields.iter().for_each(|field| sub_item(xml, field, notes));
     xml.close();
 }
 

@@ -47,10 +47,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCa
             xml.leaf("ConfigData", value::hex(&eeprom.config_data));
             xml.text_leaf("BootStrap", &value::hex(&eeprom.boot_strap));
             for (number, data) in &eeprom.categories {
-                xml.open("Category");
-                xml.leaf("CatNo", number);
-                xml.leaf("Data", value::hex(data));
-                xml.close();
+                xml.leaves("Category", &[("CatNo", &number), ("Data", &value::hex(data))]);
             }
         }
         _ => {

@@ -1,6 +1,6 @@
 //! Writes timeouts and the facts that only tools use.
 
-use super::text::hex;
+use super::text::{self, hex};
 use super::Context;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
@@ -54,9 +54,7 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCat
     }
     xml.open("Info");
     if let Some(current) = settings.ebus_current {
-        xml.open("Electrical");
-        xml.leaf("EBusCurrent", current);
-        xml.close();
+        xml.leaves("Electrical", &[("EBusCurrent", &current)]);
     }
     if !states.is_empty() || settings.safe_op_without_sync {
         xml.open("StateMachine");
@@ -116,15 +114,7 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
 /// Writes the vendor's name in the additional languages.
 pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
     for name in &context.catalog.vendor_names {
-        match language::lcid(&name.language) {
-            Some(lcid) => {
-                xml.open("Name");
-                xml.attribute("LcId", lcid);
-                xml.content(&name.text);
-                xml.close();
-            }
-            None => context.notes.add(NoteKind::Language, Subject::Named("Vendor")),
-        }
+        text::name(xml, "Name", name, &mut context.notes, Subject::Named("Vendor"));
     }
 }
 

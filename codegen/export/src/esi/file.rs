@@ -36,7 +36,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         catalog,
         options,
         notes: Notes::default(),
-        missing: MissingFacts::default(),
+        missing: MissingFacts::new(Options::KEYS),
         units: HashMap::new(),
         is_esi: is_esi(catalog),
     };
@@ -46,11 +46,9 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         [] if is_messages => messages_only(&mut xml, &mut context),
         devices => info(&mut xml, &mut context, devices),
     }
-    context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
-    context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
     let Context { mut notes, missing, .. } = context;
     options.note_unused(&mut notes);
-    missing.finish(xml.finish(), notes.finish())
+    missing.finish(xml, notes)
 }
 
 /// Returns whether an ESI can describe the device.
@@ -127,10 +125,10 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
         Some(_) => context.notes.add(NoteKind::FileInfo, Subject::Device),
         None => {}
     }
-    let id = context.required(context.options.vendor_id(), identity.vendor_id, "vendor-id");
+    let id = context.missing.require(context.options.vendor_id().or(identity.vendor_id), "vendor-id");
     xml.leaf("Id", hex(id, 8));
     let name = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
-    let name = context.required(context.options.vendor_name(), name, "vendor-name");
+    let name = context.missing.require(context.options.vendor_name().or(name), "vendor-name");
     xml.leaf("Name", name);
     extras::vendor_names(xml, context);
     if context.is_esi {
@@ -158,10 +156,7 @@ fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     let group = if devices.is_empty() { None } else { context.options.group() };
     if let Some(group) = &group {
         if !families.iter().any(|family| family.id == *group) {
-            xml.open("Group");
-            xml.leaf("Type", group);
-            xml.leaf("Name", group);
-            xml.close();
+            xml.leaves("Group", &[("Type", &group), ("Name", &group)]);
         }
     }
     xml.close();

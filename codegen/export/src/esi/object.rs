@@ -95,7 +95,7 @@ fn sub_items(
 fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
     let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
-    notes.into_iter().for_each(|note| context.notes.add(note, Subject::item(item)));
+    context.notes.add_all(notes, Subject::item(item));
     context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
@@ -169,10 +169,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
 /// Writes the extension attributes of an object as Property elements with a name and a value.
 fn properties(xml: &mut Xml, group: &Group) {
     xml.list("Properties", &group.extensions, |xml, extension| {
-        xml.open("Property");
-        xml.leaf("Name", &extension.key);
-        xml.leaf("Value", &extension.value);
-        xml.close();
+        xml.leaves("Property", &[("Name", &extension.key), ("Value", &extension.value)]);
     });
 }
 

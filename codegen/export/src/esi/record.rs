@@ -2,7 +2,7 @@
 
 use compact_str::{format_compact, CompactString};
 
-use super::types::{unique, AddedField, AddedType, Types};
+use super::types::{unique, AddedType, SubItem, Types};
 use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Access, Bus, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 use lexibus_codegen::unique::Unique;
@@ -225,14 +225,11 @@ fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &
     let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Subject::item(count_item));
     let bits = element_bits.saturating_mul(count);
     let array = types.unique(&format_compact!("{usual}ARR"));
-    types.added.push(AddedType::Array { name: array.clone(), element, bits, count });
-    let field = |name: &CompactString, sub_index, ty, bits, offset, item: &Item| AddedField {
-        name: name.clone(),
-        sub_index,
-        ty,
-        bits,
-        offset,
-        facts: FieldFacts::of(item),
+    let of_array = AddedType { name: array.clone(), bits, array: Some((element, count)), fields: Vec::new() };
+    types.added.push(of_array);
+    let field = |name: &CompactString, sub_index, ty, bits, offset, item: &Item| {
+        let facts = Some(FieldFacts::of(item));
+        SubItem { name: name.clone(), sub_index: Some(sub_index), ty, bits, offset, facts }
     };
     let count_name = if count_item.name == ELEMENTS { "SubIndex 000".into() } else { count_item.name.clone() };
     let fields = vec![
@@ -251,16 +248,16 @@ fn new_record(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: 
         let (ty, bits) = types.reference(item.type_on(BUS), notes, Subject::item(item));
         let offset = if *sub_index > 0 { next.max(FIRST_OFFSET) } else { next };
         next = offset.saturating_add(bits);
-        let facts = FieldFacts::of(item);
-        fields.push(AddedField { name: name.clone(), sub_index: *sub_index, ty, bits, offset, facts });
+        let facts = Some(FieldFacts::of(item));
+        fields.push(SubItem { name: name.clone(), sub_index: Some((*sub_index).into()), ty, bits, offset, facts });
     }
     finish(types, usual, fields, names)
 }
 
-fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<AddedField>, names: Vec<CompactString>) -> Plan {
+fn finish(types: &mut Types<'_>, usual: &str, fields: Vec<SubItem>, names: Vec<CompactString>) -> Plan {
     let bits = fields.last().map_or(0, |last| last.offset.saturating_add(last.bits));
     let ty = types.unique(usual);
-    types.added.push(AddedType::Record { name: ty.clone(), bits, fields });
+    types.added.push(AddedType { name: ty.clone(), bits, array: None, fields });
     Plan { ty, bits, names: Some(names) }
 }
 

@@ -94,9 +94,7 @@ fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
         match fit {
             Fit::Ident(ident) => xml.leaf("ModuleIdent", hex(*ident, 8)),
             Fit::Class(class) if !by_ident => {
-                xml.open("ModuleClass");
-                xml.leaf("Class", class);
-                xml.close();
+                xml.leaves("ModuleClass", &[("Class", &class)]);
             }
             Fit::Class(_) | Fit::Name(_) => notes.add(NoteKind::Slot, Subject::Named(&slot.name)),
         }

@@ -37,21 +37,25 @@ pub(super) fn unique(names: &mut Unique, name: &str) -> CompactString {
     names.unique(name, |number| format_compact!("{name} ({number})"))
 }
 
-/// A data type that the device does not define.
-pub(super) enum AddedType {
-    Basic { name: CompactString, bits: u32 },
-    Array { name: CompactString, element: CompactString, bits: u32, count: u32 },
-    Record { name: CompactString, bits: u32, fields: Vec<AddedField> },
+/// A data type that the device does not define: a basic type, an array or a record.
+#[derive(Default)]
+pub(super) struct AddedType {
+    pub(super) name: CompactString,
+    pub(super) bits: u32,
+    /// Element type and number of elements of an array.
+    pub(super) array: Option<(CompactString, u32)>,
+    /// Sub-items of a record.
+    pub(super) fields: Vec<SubItem>,
 }
 
-/// A sub-item of a record type that the export adds.
-pub(super) struct AddedField {
+/// A sub-item of a record type.
+pub(super) struct SubItem {
     pub(super) name: CompactString,
-    pub(super) sub_index: u8,
+    pub(super) sub_index: Option<u16>,
     pub(super) ty: CompactString,
     pub(super) bits: u32,
     pub(super) offset: u32,
-    pub(super) facts: FieldFacts,
+    pub(super) facts: Option<FieldFacts>,
 }
 
 impl<'a> Types<'a> {
@@ -141,7 +145,7 @@ impl<'a> Types<'a> {
         }
         let name = self.unique(&basic_name(written));
         self.basic.insert(written, name.clone());
-        self.added.push(AddedType::Basic { name: name.clone(), bits });
+        self.added.push(AddedType { name: name.clone(), bits, ..AddedType::default() });
         (name, bits)
     }
 
@@ -220,30 +224,16 @@ fn sized(ty: Type, bits: Option<u32>) -> Type {
 /// Returns the ETG.1000.6 name of a basic type, or a name that readers interpret as this type.
 pub(super) fn basic_name(ty: Type) -> CompactString {
     match ty {
-        Type::Boolean => "BOOL".into(),
-        Type::Integer(8) => "SINT".into(),
-        Type::Integer(16) => "INT".into(),
-        Type::Integer(32) => "DINT".into(),
-        Type::Integer(64) => "LINT".into(),
-        Type::Integer(bits) => format_compact!("INT{bits}"),
-        Type::Unsigned(8) => "USINT".into(),
-        Type::Unsigned(16) => "UINT".into(),
-        Type::Unsigned(32) => "UDINT".into(),
-        Type::Unsigned(64) => "ULINT".into(),
         Type::Unsigned(bits @ (24 | 40 | 48 | 56)) => format_compact!("UINT{bits}"),
+        Type::Unsigned(8 | 16 | 32 | 64) | Type::Integer(8 | 16 | 32 | 64) => type_name::name_of(ty).into(),
+        Type::Integer(bits) => format_compact!("INT{bits}"),
         Type::Unsigned(bits) => format_compact!("BIT{bits}"),
-        Type::Real32 => "REAL".into(),
-        Type::Real64 => "LREAL".into(),
         Type::VisibleString(Some(length)) => format_compact!("STRING({length})"),
-        Type::VisibleString(None) => "STRING".into(),
         Type::OctetString(Some(length @ 1..)) => format_compact!("ARRAY [0..{}] OF BYTE", length - 1),
         Type::OctetString(Some(0)) => "OCTET_STRING(0)".into(),
-        Type::OctetString(None) => "OCTET_STRING".into(),
         Type::UnicodeString(Some(length)) => format_compact!("UNICODE_STRING({length})"),
-        Type::UnicodeString(None) => "UNICODE_STRING".into(),
-        Type::TimeOfDay => "TIME_OF_DAY".into(),
-        Type::TimeDifference => "TIME_DIFFERENCE".into(),
         Type::Domain | Type::Time(_) | Type::Opaque(_) | Type::Named(_) => "DOMAIN".into(),
+        named => type_name::name_of(named).into(),
     }
 }
 

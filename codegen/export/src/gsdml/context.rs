@@ -8,7 +8,6 @@ use super::super::note::Notes;
 use super::super::options::MissingFacts;
 use super::options::TrackedOptions;
 use super::texts::TextList;
-use super::Options;
 
 /// Data that the writers of all parts of the file use.
 pub(super) struct Context<'a> {
@@ -22,12 +21,4 @@ pub(super) struct Context<'a> {
     pub(super) pluggable_ports: HashSet<u32>,
     /// True if the source is a GSDML. The export then does not require facts that the source lacks.
     pub(super) is_gsdml: bool,
-}
-
-impl Context<'_> {
-    /// Returns the caller's value (`given`), or the source's value (`found`) if the caller gives none. Records `key` as
-    /// missing if there is no value.
-    pub(super) fn required<T: Default>(&mut self, given: Option<T>, found: Option<T>, key: &'static str) -> T {
-        self.missing.require(given.or(found), key, Options::KEYS)
-    }
 }

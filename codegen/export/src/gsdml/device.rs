@@ -109,9 +109,6 @@ fn vendor_blocks(xml: &mut Xml, context: &mut Context<'_>, settings: &ProfinetSe
 fn slot_list(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.list("SlotList", &device.slots, |xml, slot| {
         let text = context.texts.id(&slot.name, &slot.names);
-        xml.open("SlotItem");
-        xml.attribute("SlotNumber", slot.number);
-        xml.attribute("TextId", text);
-        xml.close();
+        xml.empty("SlotItem", &[("SlotNumber", &slot.number), ("TextId", &text)]);
     });
 }

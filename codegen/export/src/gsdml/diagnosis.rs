@@ -126,9 +126,7 @@ fn head(xml: &mut Xml, list: &'static List, row: &CodeRow, state: Option<&Value>
 /// Writes the name and the help text of a code.
 fn texts(xml: &mut Xml, context: &mut Context<'_>, row: &CodeRow) {
     context.texts.text(xml, "Name", &row.name, &row.names);
-    if let Some(documentation) = &row.documentation {
-        context.texts.documentation(xml, "Help", documentation);
-    }
+    context.texts.documentation(xml, "Help", row.documentation.as_deref());
 }
 
 /// Writes the additional values of a code. The IR stores their identifiers and types in the form
@@ -137,10 +135,7 @@ fn add_values(xml: &mut Xml, list: &'static List, cell: Option<&Value>) {
     let Some(Value::Text(text)) = cell else { return };
     let items = text.split(", ").filter_map(|item| item.split_once(' '));
     xml.list(list.add_value, items, |xml, (id, data_type)| {
-        xml.open("DataItem");
-        xml.attribute("Id", id);
-        xml.attribute("DataType", data_type);
-        xml.close();
+        xml.empty("DataItem", &[("Id", &id), ("DataType", &data_type)]);
     });
 }
 
@@ -150,9 +145,7 @@ fn unit_diagnosis(xml: &mut Xml, context: &mut Context<'_>, diagnosis: &UnitDiag
     xml.unless("API", diagnosis.api, 0);
     xml.attribute("UserStructureIdentifier", diagnosis.identifier);
     context.texts.text(xml, "Name", &diagnosis.name, &diagnosis.names);
-    if let Some(documentation) = &diagnosis.documentation {
-        context.texts.documentation(xml, "Help", documentation);
-    }
+    context.texts.documentation(xml, "Help", diagnosis.documentation.as_deref());
     diagnosis.fields.iter().for_each(|each| field(xml, context, each));
     xml.close();
     context.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Subject::Named(&diagnosis.name));

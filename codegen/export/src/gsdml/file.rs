@@ -1,6 +1,6 @@
 //! Writes the file with its header, identity and lists.
 
-use lexibus_codegen::ir::{Catalog, CompactString, Documentation, Format, ProfileHeader};
+use lexibus_codegen::ir::{Catalog, CompactString, Format, ProfileHeader};
 
 use super::super::note::{Notes, Subject};
 use super::super::options::MissingFacts;
@@ -25,7 +25,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
     options.date();
-    let (mut notes, mut missing) = (Notes::default(), MissingFacts::default());
+    let (mut notes, mut missing) = (Notes::default(), MissingFacts::new(Options::KEYS));
     let from_images = match is_gsdml(catalog) {
         true => None,
         false => Some(image::catalog(catalog, options, &mut notes, &mut missing).ok_or(Refusal::Nothing)?),
@@ -47,11 +47,9 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     };
     let mut xml = Xml::new();
     root(&mut xml, &mut context);
-    context.notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
-    context.notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
     let Context { mut notes, missing, .. } = context;
     options.note_unused(&mut notes);
-    missing.finish(xml.finish(), notes.finish())
+    missing.finish(xml, notes)
 }
 
 /// Returns the required file name without extension: schema version, vendor, family and date. If the options contain no
@@ -145,19 +143,18 @@ fn identity(xml: &mut Xml, context: &mut Context<'_>) {
     let main = family.map(|(main, _)| main.to_string()).filter(|main| context.is_gsdml || !main.is_empty());
     let product = family.map(|(_, product)| product.to_string()).filter(|product| !product.is_empty());
     xml.open("DeviceIdentity");
-    let vendor = context.required(options.vendor_id(), vendor, "vendor-id");
+    let vendor = context.missing.require(options.vendor_id().or(vendor), "vendor-id");
     xml.attribute("VendorID", format_args!("0x{vendor:04X}"));
-    let number = context.required(options.device_id(), number, "device-id");
+    let number = context.missing.require(options.device_id().or(number), "device-id");
     xml.attribute("DeviceID", format_args!("0x{number:04X}"));
-    let text = context.required(options.description(), text, "description");
-    let translations = catalog.descriptions.clone();
-    context.texts.documentation(xml, "InfoText", &Documentation { text, translations, ..Documentation::default() });
-    let name = context.required(options.vendor_name(), name, "vendor-name");
-    xml.reference("VendorName", "Value", name);
+    let text = context.missing.require(options.description().or(text), "description");
+    context.texts.text(xml, "InfoText", &text, &catalog.descriptions);
+    let name = context.missing.require(options.vendor_name().or(name), "vendor-name");
+    xml.empty("VendorName", &[("Value", &name)]);
     xml.close();
     xml.open("DeviceFunction");
     xml.open("Family");
-    let main = context.required(options.main_family(), main, "main-family");
+    let main = context.missing.require(options.main_family().or(main), "main-family");
     xml.attribute("MainFamily", main);
     xml.optional("ProductFamily", options.product_family().or(product));
     xml.close();
@@ -174,10 +171,7 @@ fn process(xml: &mut Xml, context: &mut Context<'_>) {
     values::write(xml, context);
     diagnosis::write(xml, context, catalog);
     xml.list("GraphicsList", &catalog.graphics, |xml, graphic| {
-        xml.open("GraphicItem");
-        xml.attribute("ID", &graphic.id);
-        xml.attribute("GraphicFile", &graphic.file);
-        xml.close();
+        xml.empty("GraphicItem", &[("ID", &graphic.id), ("GraphicFile", &graphic.file)]);
     });
     xml.list("CategoryList", &catalog.families, |xml, family| category(xml, context, family));
 }
@@ -188,8 +182,7 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
     xml.attribute("TextId", context.texts.id(&family.name, &family.names));
     if let Some((first, others)) = family.descriptions.split_first() {
         let translations = others.iter().cloned().collect();
-        let description = Documentation { text: first.text.to_string(), translations, ..Documentation::default() };
-        context.texts.documentation(xml, "InfoText", &description);
+        context.texts.text(xml, "InfoText", &first.text, &translations);
     }
     xml.close();
 }

@@ -5,14 +5,13 @@ use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
 
 use super::options::TrackedOptions;
-use super::Options;
 use crate::note::{self, NoteKind, Notes, Subject};
 use crate::options::MissingFacts;
+use crate::types::resolved;
 use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
-    ProcessImage, ProfinetSettings, Shape, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type,
-    TypeDef,
+    ProcessImage, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type, TypeDef,
 };
 
 /// Subslot numbers of the first interface and of its first port.
@@ -50,7 +49,7 @@ struct Maker<'m> {
 
 impl Maker<'_> {
     fn require<T: Default>(&mut self, given: Option<T>, key: &'static str) -> T {
-        self.missing.require(given, key, Options::KEYS)
+        self.missing.require(given, key)
     }
 
     fn device(&mut self, source: &Device) -> Device {
@@ -280,7 +279,8 @@ fn filler(fields: &mut Vec<PdoEntry>, from: u32, to: u32) {
 fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> PdoEntry {
     let subject = Subject::Named(&field.name);
     let octets = |kind| (Type::OctetString(Some(field.bits / 8)), Some(kind));
-    let (below, note) = underlying(field.ty, types);
+    let (below, note) = resolved(field.ty, types);
+    let below = below.unwrap_or(Type::Opaque(None));
     let (ty, type_note) = match below {
         Type::Unsigned(width) | Type::Integer(width) if u32::from(width) != field.bits => octets(NoteKind::UnknownType),
         Type::Unsigned(16 | 32 | 64) | Type::Integer(16 | 32 | 64) | Type::Real32 | Type::Real64
@@ -296,27 +296,8 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
         Type::Opaque(_) => octets(NoteKind::UnknownType),
         _ => octets(NoteKind::Structure),
     };
-    note.into_iter().chain(type_note).for_each(|note| notes.add(note, subject));
+    notes.add_all(note.into_iter().chain(type_note), subject);
     PdoEntry { ty, ..field.clone() }
-}
-
-/// Returns the basic type of a defined type. Also returns a note if the data item loses names of bits, named values, a
-/// scaling or a structure.
-fn underlying(mut ty: Type, types: &[TypeDef]) -> (Type, Option<NoteKind>) {
-    let mut note = None;
-    for _ in 0..8 {
-        let Type::Named(id) = ty else { break };
-        let Some(def) = types.get(id.0 as usize) else { break };
-        let (below, shape_note) = match &def.shape {
-            Shape::Alias(base) => (*base, None),
-            Shape::Enumeration { base, .. } => (*base, Some(NoteKind::Enumeration)),
-            Shape::BitField { base, .. } => (*base, Some(NoteKind::BitField)),
-            Shape::Scaled { base, .. } => (*base, Some(NoteKind::Quantity)),
-            Shape::Array { .. } | Shape::Record(_) => return (Type::Opaque(None), Some(NoteKind::Structure)),
-        };
-        (ty, note) = (below, note.or(shape_note));
-    }
-    (ty, note)
 }
 
 /// Adds one data item, which consists of bits, for fields that share bytes or are not byte-aligned. Adds a note for

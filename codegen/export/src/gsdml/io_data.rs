@@ -42,9 +42,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     let types = context.types;
     for field in fields {
         let Name { name, needs_length, note } = types::name(field.ty, field.bits, types);
-        if let Some(note) = note {
-            context.notes.add(note, Subject::Named(&field.name));
-        }
+        context.notes.add_all(note, Subject::Named(&field.name));
         xml.open("DataItem");
         xml.attribute("DataType", name);
         if needs_length {
@@ -80,10 +78,8 @@ fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[P
                 Some(bytes) => (bytes - 1 - bit_offset / 8) * 8 + bit_offset % 8,
                 None => bit_offset,
             };
-            xml.open("BitDataItem");
-            xml.attribute("BitOffset", offset);
-            xml.attribute("TextId", context.texts.id(&field.name, &field.names));
-            xml.close();
+            let text = context.texts.id(&field.name, &field.names);
+            xml.empty("BitDataItem", &[("BitOffset", &offset), ("TextId", &text)]);
         }
     }
     xml.close();
@@ -94,16 +90,10 @@ fn channel(xml: &mut Xml, channel: &IoChannel) {
     xml.attribute("Number", channel.number);
     channel.attributes.iter().for_each(|(name, value)| xml.attribute(name, value));
     if let Some((offset, bits)) = channel.data {
-        xml.open("Data");
-        xml.attribute("BitOffset", offset);
-        xml.attribute("BitLength", bits);
-        xml.close();
+        xml.empty("Data", &[("BitOffset", &offset), ("BitLength", &bits)]);
     }
     if let Some((offset, _)) = channel.quality {
-        xml.open("Quality");
-        xml.attribute("BitOffset", offset);
-        xml.attribute("Format", &channel.quality_format);
-        xml.close();
+        xml.empty("Quality", &[("BitOffset", &offset), ("Format", &channel.quality_format)]);
     }
     xml.close();
 }

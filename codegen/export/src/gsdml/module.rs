@@ -33,14 +33,11 @@ impl Info<'_> {
             xml.text_attribute(key, find(self.attributes, key));
         }
         context.texts.text(xml, "Name", self.name, self.names);
-        match self.documentation {
-            Some(documentation) => context.texts.documentation(xml, "InfoText", documentation),
-            None if context.is_gsdml => {}
-            // The schema requires the element InfoText, so the name replaces a missing text.
-            None => {
-                context.texts.text(xml, "InfoText", self.name, self.names);
-                context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
-            }
+        context.texts.documentation(xml, "InfoText", self.documentation);
+        // A source other than GSDML may contain no description, but the schema requires a text.
+        if self.documentation.is_none() && !context.is_gsdml {
+            context.texts.text(xml, "InfoText", self.name, self.names);
+            context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
         }
         elements::FAMILY.write(xml, self.attributes);
         let values = [
@@ -50,7 +47,7 @@ impl Info<'_> {
             ("SoftwareRelease", self.software),
         ];
         for (name, value) in values.into_iter().filter(|(_, value)| !value.is_empty()) {
-            xml.reference(name, "Value", value);
+            xml.empty(name, &[("Value", &value)]);
         }
         xml.close();
     }
@@ -67,10 +64,8 @@ pub(super) fn slot_lists(xml: &mut Xml, slots: &SlotNumbers, what: &str) {
 /// Writes the SubslotList element.
 pub(super) fn subslots(xml: &mut Xml, context: &mut Context<'_>, names: &[SubslotName]) {
     xml.list("SubslotList", names, |xml, subslot| {
-        xml.open("SubslotItem");
-        xml.attribute("SubslotNumber", subslot.number);
-        xml.attribute("TextId", context.texts.id(&subslot.name, &subslot.names));
-        xml.close();
+        let text = context.texts.id(&subslot.name, &subslot.names);
+        xml.empty("SubslotItem", &[("SubslotNumber", &subslot.number), ("TextId", &text)]);
     });
 }
 
@@ -83,10 +78,7 @@ pub(super) fn graphics(xml: &mut Xml, attributes: &Attributes) {
 /// Writes a Graphics element with the given references.
 pub(super) fn graphics_of<'g>(xml: &mut Xml, list: impl Iterator<Item = (&'g str, &'g CompactString)>) {
     xml.list("Graphics", list, |xml, (kind, target)| {
-        xml.open("GraphicItemRef");
-        xml.attribute("Type", kind);
-        xml.attribute("GraphicItemTarget", target);
-        xml.close();
+        xml.empty("GraphicItemRef", &[("Type", &kind), ("GraphicItemTarget", &target)]);
     });
 }
 

@@ -178,7 +178,7 @@ fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &HashSet<&st
         let is_menu = all.contains(target.as_str());
         let (element, attribute) =
             if is_menu { ("MenuRef", "MenuTarget") } else { ("ParameterRef", "ParameterTarget") };
-        xml.reference(element, attribute, target);
+        xml.empty(element, &[(attribute, target)]);
     }
     xml.close();
 }

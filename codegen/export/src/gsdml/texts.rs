@@ -58,12 +58,19 @@ impl TextList {
 
     /// Writes an element that refers to a text.
     pub(super) fn text(&mut self, xml: &mut Xml, element: &'static str, text: &str, names: &Texts) {
-        xml.reference(element, "TextId", self.id(text, names));
+        xml.empty(element, &[("TextId", &self.id(text, names))]);
     }
 
     /// Writes an element that refers to the text of a description.
-    pub(super) fn documentation(&mut self, xml: &mut Xml, element: &'static str, documentation: &Documentation) {
-        self.text(xml, element, &documentation.text, &documentation.translations);
+    pub(super) fn documentation(
+        &mut self,
+        xml: &mut Xml,
+        element: &'static str,
+        documentation: Option<&Documentation>,
+    ) {
+        if let Some(documentation) = documentation {
+            self.text(xml, element, &documentation.text, &documentation.translations);
+        }
     }
 
     /// Returns the languages in the order of first occurrence, each with its texts.
@@ -92,7 +99,7 @@ impl TextList {
         xml.open("ExternalTextList");
         xml.open("PrimaryLanguage");
         for (id, value, _) in &self.texts {
-            text(xml, id, value);
+            xml.empty("Text", &[("TextId", id), ("Value", value)]);
         }
         xml.close();
         for (language, texts) in self.translations() {
@@ -102,18 +109,11 @@ impl TextList {
             }
             xml.open("Language");
             xml.attribute("xml:lang", language);
-            texts.into_iter().for_each(|(id, value)| text(xml, id, value));
+            texts.into_iter().for_each(|(id, value)| xml.empty("Text", &[("TextId", id), ("Value", value)]));
             xml.close();
         }
         xml.close();
     }
-}
-
-fn text(xml: &mut Xml, id: &str, value: &str) {
-    xml.open("Text");
-    xml.attribute("TextId", id);
-    xml.attribute("Value", value);
-    xml.close();
 }
 
 /// Returns whether a text has the form of a language tag (`xs:language`).

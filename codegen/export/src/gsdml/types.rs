@@ -62,9 +62,7 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
         _ if is_bits => plain("BitArea"),
         _ => name(ty, bits, context.types),
     };
-    if let Some(note) = note {
-        context.notes.add(note, Subject::Named(subject));
-    }
+    context.notes.add_all(note, Subject::Named(subject));
     xml.attribute("DataType", name);
     xml.attribute("ByteOffset", offset / 8);
     if is_bits && !is_byte {

@@ -25,9 +25,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>) {
         }
         xml.open("ValueItem");
         xml.attribute("ID", &def.name);
-        if let Some(documentation) = &def.documentation {
-            context.texts.documentation(xml, "Help", documentation);
-        }
+        context.texts.documentation(xml, "Help", def.documentation.as_deref());
         if !values.is_empty() {
             assignments(xml, context, values);
         }

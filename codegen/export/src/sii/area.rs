@@ -55,7 +55,7 @@ impl Area {
             (0x0E, options.serial_number().or(identity.serial_number).or(Some(0)), "serial-number"),
         ];
         for (word, number, key) in numbers {
-            let number: u32 = missing.require(number, key, super::Options::KEYS);
+            let number: u32 = missing.require(number, key);
             self.set_bytes(word, &number.to_le_bytes());
         }
     }
@@ -92,7 +92,7 @@ fn config_data(context: &mut Context<'_>, missing: &mut MissingFacts) -> Vec<u8>
     let declared = context.settings.eeprom.as_ref().map(|eeprom| eeprom.config_data.clone());
     let declared = declared.filter(|bytes| !bytes.is_empty());
     let given = context.options.config_data().map(|octets| octets.0);
-    let mut bytes = missing.require(given.or(declared), "config-data", super::Options::KEYS);
+    let mut bytes = missing.require(given.or(declared), "config-data");
     // The bytes of a description may include the checksum. It is only checked, because `configure` computes the checksum of
     // the image.
     let is_more = !matches!(bytes.len(), 0..=CHECKED | CHECKED_WITH_SUM);

@@ -2,8 +2,9 @@
 
 use lexibus_codegen::ir::ClockMode;
 
+use super::general::fitting;
 use super::Context;
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 
 /// Returns the content of the category, which is empty for a device without modes of the distributed clocks.
 pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
@@ -14,29 +15,15 @@ pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
         bytes.extend(mode.cycle_sync0.nanoseconds.to_le_bytes());
         bytes.extend(mode.shift_sync0.nanoseconds.to_le_bytes());
         bytes.extend(mode.shift_sync1.nanoseconds.to_le_bytes());
-        bytes.extend(factor(mode.cycle_sync1.factor, &mut context.notes, subject).to_le_bytes());
-        bytes.extend(assign_activate(mode, &mut context.notes, subject).to_le_bytes());
-        bytes.extend(factor(mode.cycle_sync0.factor, &mut context.notes, subject).to_le_bytes());
+        bytes.extend(fitting::<i16>(mode.cycle_sync1.factor.unwrap_or(0), &mut context.notes, subject).to_le_bytes());
+        bytes.extend(fitting::<u16>(mode.assign_activate, &mut context.notes, subject).to_le_bytes());
+        bytes.extend(fitting::<i16>(mode.cycle_sync0.factor.unwrap_or(0), &mut context.notes, subject).to_le_bytes());
         bytes.push(context.texts.number(&mode.name, &mut context.notes));
         bytes.push(context.texts.number(&mode.description, &mut context.notes));
         bytes.extend([0; 4]);
         context.notes.add_many(NoteKind::Setting, unsupported(mode), subject);
     }
     bytes
-}
-
-fn factor(factor: Option<i32>, notes: &mut Notes, subject: Subject<'_>) -> i16 {
-    i16::try_from(factor.unwrap_or(0)).unwrap_or_else(|_| {
-        notes.add(NoteKind::Value, subject);
-        0
-    })
-}
-
-fn assign_activate(mode: &ClockMode, notes: &mut Notes, subject: Subject<'_>) -> u16 {
-    u16::try_from(mode.assign_activate).unwrap_or_else(|_| {
-        notes.add(NoteKind::Value, subject);
-        0
-    })
 }
 
 /// Returns how many settings of a mode have no field in the category.

@@ -28,7 +28,8 @@ pub(super) fn content(context: &mut Context<'_>) -> Vec<u8> {
         settings.identification_in_al_status,
         settings.identification_register.is_some(),
     ]);
-    bytes[12..14].copy_from_slice(&current(settings.ebus_current, notes).to_le_bytes());
+    let current: i16 = fitting(settings.ebus_current.unwrap_or(0), notes, Subject::Named("EBusCurrent"));
+    bytes[12..14].copy_from_slice(&current.to_le_bytes());
     bytes[14] = group;
     bytes[16..18].copy_from_slice(&ports(&settings.physics, notes).to_le_bytes());
     bytes[18..20].copy_from_slice(&settings.identification_register.unwrap_or(0).to_le_bytes());
@@ -40,13 +41,11 @@ pub(super) fn bits(flags: &[bool]) -> u8 {
     flags.iter().rev().fold(0, |bits, flag| bits << 1 | u8::from(*flag))
 }
 
-/// Returns the current drawn from the E-bus in milliamperes, or 0 if the value is unknown or does not fit into the
-/// field.
-fn current(milliamperes: Option<i32>, notes: &mut Notes) -> i16 {
-    let milliamperes = milliamperes.unwrap_or(0);
-    i16::try_from(milliamperes).unwrap_or_else(|_| {
-        notes.add(NoteKind::Value, Subject::Named("EBusCurrent"));
-        0
+/// Returns a value that fits into its field, or 0 and a note if it does not fit.
+pub(super) fn fitting<T: Default>(value: impl TryInto<T>, notes: &mut Notes, subject: Subject<'_>) -> T {
+    value.try_into().unwrap_or_else(|_| {
+        notes.add(NoteKind::Value, subject);
+        T::default()
     })
 }
 
@@ -80,11 +79,12 @@ mod tests {
     fn numbers() {
         let mut notes = Notes::default();
         assert_eq!([ports("YKY", &mut notes), ports("K HY", &mut notes)], [0x0131, 0x1403]);
-        assert_eq!([current(Some(-2000), &mut notes), current(None, &mut notes)], [-2000, 0]);
+        let current = |milliamperes: i32, notes: &mut Notes| fitting::<i16>(milliamperes, notes, Subject::Device);
+        assert_eq!(current(-2000, &mut notes), -2000);
         assert_eq!(bits(&[true, false, true]), 5);
         assert!(notes.finish().is_empty());
         let mut notes = Notes::default();
-        assert_eq!((ports("YYYYY?", &mut notes), current(Some(40_000), &mut notes)), (0x1111, 0));
+        assert_eq!((ports("YYYYY?", &mut notes), current(40_000, &mut notes)), (0x1111, 0));
         assert_eq!(notes.finish().iter().map(|note| note.count).collect::<Vec<_>>(), [1, 2]);
     }
 }

@@ -82,7 +82,7 @@ fn with_detail(
     detail: Detail,
 ) -> Result<Image, Refusal> {
     let mut context = Context { device, settings, options, notes: Notes::default(), texts: Texts::default() };
-    let mut missing = MissingFacts::default();
+    let mut missing = MissingFacts::new(Options::KEYS);
     let area = area::content(&mut context, &mut missing);
     missing.check()?;
     let categories = categories(&mut context, detail);

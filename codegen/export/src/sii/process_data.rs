@@ -8,6 +8,7 @@ use lexibus_codegen::ir::{Direction, Pdo, PdoEntry, SyncManager, SyncManagerPurp
 use super::general::bits;
 use super::Context;
 use crate::note::{NoteKind, Subject};
+use crate::types::without_length;
 
 /// Length in bits of a part of a PDO entry. Entries with more than 255 bits are split into parts. The last part can be
 /// shorter.
@@ -125,12 +126,7 @@ fn flags(pdo: &Pdo) -> u16 {
 
 /// Returns the lowest number of a type in ETG.1000.6, or 0 if the type has no number below 256.
 fn type_code(context: &Context<'_>, ty: Type) -> u8 {
-    let without_length = match types::basic(&context.device.types, ty) {
-        Type::VisibleString(_) => Type::VisibleString(None),
-        Type::OctetString(_) => Type::OctetString(None),
-        Type::UnicodeString(_) => Type::UnicodeString(None),
-        basic => basic,
-    };
+    let without_length = without_length(types::basic(&context.device.types, ty));
     // A type can have several numbers. The lowest is the one that CiA 301 defines.
     let is_type = |code: &u8| type_name::by_code((*code).into()) == Some(Basic::Type(without_length));
     (1..=u8::MAX).find(is_type).unwrap_or(0)
