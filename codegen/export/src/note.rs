@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use lexibus_codegen::ir::{Device, Group, Item};
+use lexibus_codegen::facts::doubts;
+use lexibus_codegen::ir::{Catalog, Device, Group, Item};
 use lexibus_codegen::number;
 
 /// An exported file with its notes.
@@ -33,12 +34,12 @@ impl fmt::Display for Note {
 }
 
 macro_rules! kinds {
-    ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal, $text:literal;)+) => {
+    ($($(#[doc = $doc:literal])* $kind:ident = $name:literal, $text:literal;)+) => {
         /// A kind of fact that the output format cannot express, or expresses in a different form.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum NoteKind {
-            $($(#[doc = $doc])+ $kind,)+
+            $($(#[doc = $doc])* #[doc = ""] #[doc = concat!("Note: ", $text, ".")] $kind,)+
         }
 
         impl NoteKind {
@@ -63,41 +64,27 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// The value of an option that the export does not use.
     GivenFact = "given-fact", "value of an option left out: the file has no field for it";
     /// A fact of a configured device, such as ParameterValue or Denotation, if the output format is not DCF.
     Configuration = "configuration", "configured value left out: only a DCF has a field for it";
     /// A unit or scale, including sentinel values, a step and further units.
     Quantity = "unit", "unit or scale left out";
-    /// A type with named values, which is written as its integer type.
     Enumeration = "enumeration", "enumeration written as its integer type";
-    /// A type with named bits, which is written as its integer type.
     BitField = "bit-field", "bit field written as its integer type";
-    /// A record or array in a single entry, which is written as raw bytes.
     Structure = "structure", "array or record in a single entry written as raw bytes";
-    /// An integer whose width does not exist in the format.
     Widened = "widened-type", "integer written with the next wider type of the format";
     /// A type that the format does not support, or that the source does not define.
     UnknownType = "unknown-type", "unsupported type written as raw bytes";
-    /// The maximum length of a string.
     Length = "text-length", "maximum length of a string left out";
-    /// Allowed values that are several ranges or a list.
     AllowedValues = "allowed-values", "list of allowed values reduced to its minimum and maximum";
-    /// The default value or a limit of a value in cyclic data.
     Limits = "limits", "default or limits of a value in cyclic data left out";
-    /// A minimum that is greater than the maximum.
     SwappedLimits = "swapped-limits", "limits left out: the minimum is above the maximum";
-    /// A value, such as a default or a limit, that does not fit its type.
     Value = "value", "value left out: its type cannot hold it";
-    /// A fractional minimum or maximum of an integer type.
     RoundedLimit = "rounded-limit", "fractional minimum or maximum of an integer rounded";
     /// A formula that subtracts a number from `$NODEID`.
     NegativeFormula = "negative-formula", "formula with a negative number written, although CiA 306 does not define it";
-    /// PDO mapping directions that only another access type can express.
     Mapping = "pdo-mapping", "direction of PDO mapping written as access type rwr or rww";
-    /// PDO mapping directions that no access type can express.
     LostMapping = "lost-mapping", "direction of PDO mapping left out: no access type expresses it";
-    /// A PDO, or its communication parameters, that no object of the file describes.
     Pdo = "pdo", "PDO, or its communication parameters, left out: no object of the file describes it";
     /// Storage behavior, side effects or conditions of an item, or conditions of a named value.
     Behavior = "behavior", "storage, conditions or side effects left out";
@@ -106,96 +93,55 @@ kinds! {
     /// A reference from an item to another item that has the same value or a part of the value. Also the property that
     /// an item is reserved or optional.
     Relation = "relation", "relation to other items, or property reserved or optional, left out";
-    /// A description of an element.
     Documentation = "documentation", "description left out";
-    /// A name or text in another language.
     Language = "language", "text in another language left out";
-    /// The name of an object's only entry, if the name differs from that of the object.
     Name = "name", "name of an object's only entry left out: the file contains only the name of the object";
-    /// An ambiguity in the manual.
     Doubt = "doubt", "ambiguity in the manual left out";
     /// The category of an object: mandatory, optional or conditional.
     Category = "category", "category of an object left out";
-    /// An address on another bus.
     Binding = "binding", "address on another bus left out";
-    /// An object that exists only on EtherCAT.
     CoeOnly = "coe-only", "EtherCAT-only object left out";
-    /// An item outside the object dictionary.
     NotAnObject = "not-an-object", "item outside of the object dictionary left out";
-    /// A sub-index 0 that was added to an object made of registers.
     Completed = "completed", "sub-index 0 added to an object that consists of registers";
-    /// A second object or entry at the same address.
     Duplicate = "duplicate", "object or entry left out: another one has the same address";
-    /// An extension attribute for which the format has no field.
     Extension = "extension", "extension attribute left out: the format has no field for it";
     /// A module of another bus, or its submodules or fixed objects.
     Module = "module", "module of another bus left out";
-    /// A slot of a modular device, or the class or name of a module that a slot accepts.
     Slot = "slot", "slot, or class or name of a module that a slot accepts, left out";
-    /// A setting of another bus.
     OtherBus = "other-bus", "settings of another bus left out";
-    /// An additional axis, whose objects are derived from the objects of the first axis.
     Axis = "axis", "additional axis left out: the file contains only the objects of the first axis";
-    /// An element that the format cannot describe, such as a message, code table, state machine, procedure, variant or
-    /// PROFINET submodule.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
     /// A setting of the device or of one of its objects for which the format has no field.
     Setting = "setting", "setting left out: the format has no field for it";
-    /// A date, time, version or comment of the file that the export converts or leaves out.
     FileInfo = "file-info", "file date, time, version or comment converted or left out";
-    /// A text that contains a line break.
     LineBreak = "line-break", "line break in a text written as a space";
-    /// A text with characters other than ASCII.
     NotAscii = "not-ascii", "line with characters other than ASCII: the file is encoded in UTF-8";
-    /// A line longer than 255 characters.
     LongLine = "long-line", "line longer than 255 characters";
-    /// A constant, which is written as a read-only value.
     Constant = "constant", "constant written as a read-only value";
-    /// A named range of values in an enumeration.
     ValueRange = "value-range", "range of values of an enumeration written as its first value";
-    /// A repeated name where the format requires a unique name.
     Renamed = "renamed", "repeated name replaced by a unique name";
-    /// A type of unknown length.
     UnknownLength = "unknown-length", "type of unknown length written with a length of 0";
-    /// An object that belongs to a CAN service or exists on CANopen only.
     CanObject = "can-object", "CANopen-only object, or object for CAN services (COB-ID, SYNC, heartbeat), left out";
-    /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
     /// A fact that the format accepts only together with other facts that are missing.
     Incomplete = "incomplete", "facts left out: the format requires further facts that are missing";
-    /// A word or number whose form the schema does not allow.
     Spelling = "spelling", "word or number left out: the schema does not allow its notation";
-    /// A device or module of another vendor.
     OtherVendor = "other-vendor", "device or module of another vendor left out: a file contains only one vendor";
-    /// A control character in a text.
     Control = "control-character", "control character removed from a text";
-    /// A text that is missing, although the format requires it.
     MissingText = "missing-text", "missing text of an element replaced by its name";
-    /// A field of a process image that overlaps another field or is not byte-aligned.
     Layout = "layout", "overlapping or unaligned field of cyclic data written as octets or bits";
-    /// An item outside of the process images.
     NotInData = "not-in-data", "item outside of the cyclic data left out";
-    /// A little-endian number in cyclic data.
     ByteOrder = "byte-order", "little-endian number written as octets: the bus is big-endian";
-    /// A character that ISO 8859-1 does not contain.
     Character = "character", "text with characters outside of ISO 8859-1, which become question marks";
-    /// A text of more than 255 bytes.
     LongText = "long-text", "text shortened to 255 bytes";
-    /// A text after the 255 texts that an image can contain.
     TextCount = "text-count", "text left out: an image contains at most 255 texts";
-    /// A PDO entry longer than 255 bits, which is written as several entries.
     SplitEntry = "split-entry", "PDO entry longer than 255 bits written as several entries";
-    /// A PDO with more than 255 entries.
     PdoEntries = "pdo-entries", "PDO left out: it has more than 255 entries";
-    /// The name of a PDO entry, if the names do not fit in the EEPROM.
     EntryNames = "entry-names", "name of a PDO entry left out: the EEPROM is too small";
-    /// A PDO of a device with CoE, if the PDOs do not fit in the EEPROM.
     PdosLeftOut = "pdos-left-out", "PDO left out: the EEPROM is too small, and a master can read the PDO with CoE";
-    /// The size of an EEPROM, if the source does not state it or states an invalid size.
     EepromSize = "eeprom-size", "EEPROM size missing or invalid; the next larger power of two is used";
     /// Bytes of ConfigData or BootStrap for which the EEPROM has no field.
     ConfigData = "config-data", "bytes after the configuration of the slave controller or mailbox left out";
-    /// A checksum of the source that is wrong.
     Checksum = "checksum", "checksum of the configuration area in the description is wrong";
 }
 
@@ -223,6 +169,28 @@ impl Notes {
 
     pub(super) fn finish(self) -> Vec<Note> {
         self.0.into_iter().map(|(kind, (count, first))| Note { kind, count, first }).collect()
+    }
+}
+
+/// Adds notes on the facts of an item that only register tables and overlays can express.
+pub(super) fn of_item(item: &Item, notes: &mut Notes, subject: Subject<'_>) {
+    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + item.variants.len(), subject);
+    notes.add_many(NoteKind::Relation, relations(item), subject);
+    notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
+}
+
+/// Adds notes on the further axes of a device, and on its ambiguities.
+pub(super) fn of_device(catalog: &Catalog, device: &Device, notes: &mut Notes, subject: Subject<'_>) {
+    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
+    notes.add_many(NoteKind::Axis, axes, subject);
+    notes.add_many(NoteKind::Doubt, doubts::of_device(catalog, device).len(), subject);
+}
+
+/// Adds notes on the items in chapters of a device that are not objects.
+pub(super) fn of_chapters(device: &Device, notes: &mut Notes) {
+    for group in device.groups.iter().filter(|group| group.index().is_none()) {
+        let others = group.items.iter().filter(|item| item.object().is_none()).count();
+        notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));
     }
 }
 

@@ -5,7 +5,6 @@ use super::note::{self, NoteKind, Notes, Subject};
 use super::registers;
 use super::section::BIT_RATES;
 use super::{is_coe_only, Context, Flavor};
-use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Behavior, Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
 /// Adds notes for facts of the device and its PDOs that CiA 306 cannot express, and for objects and items that are left
@@ -24,21 +23,16 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
         + device.submodules.len()
         + device.process_data.images.len();
     notes.add_many(NoteKind::OtherPart, parts, subject);
-    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, subject);
+    note::of_device(catalog, device, notes, subject);
     notes.add_many(NoteKind::Language, device.names.len(), subject);
     notes.add_many(NoteKind::Documentation, device.documentation.is_some(), subject);
-    notes.add_many(NoteKind::Doubt, doubts::of_device(catalog, device).len(), subject);
     notes.add_many(NoteKind::Duplicate, registers::duplicates(device, Item::object), subject);
     settings(device, notes);
     pdos(device, notes);
     for group in device.groups.iter().filter(|group| is_coe_only(device, group)) {
         notes.add(NoteKind::CoeOnly, Subject::object(group));
     }
-    for group in device.groups.iter().filter(|group| group.index().is_none()) {
-        let others = group.items.iter().filter(|item| item.object().is_none()).count();
-        notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));
-    }
+    note::of_chapters(device, notes);
 }
 
 fn settings(device: &Device, notes: &mut Notes) {
@@ -99,10 +93,7 @@ pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     notes.add_many(NoteKind::Quantity, item.quantity.is_some(), subject);
     let is_lost = |behavior: &Behavior| *behavior != Behavior { srdo: behavior.srdo, ..Behavior::default() };
     notes.add_many(NoteKind::Behavior, item.behavior.as_deref().is_some_and(is_lost), subject);
-    let variants = item.variants.len();
-    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, subject);
-    notes.add_many(NoteKind::Relation, note::relations(item), subject);
+    note::of_item(item, notes, subject);
     notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
-    notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
     notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), subject);
 }

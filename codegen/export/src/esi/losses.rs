@@ -2,7 +2,6 @@
 
 use super::{diagnosis, Context};
 use crate::note::{self, NoteKind, Subject};
-use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{Device, Module};
 
 /// Adds notes for facts of the catalog that ETG.2000 cannot express, except those of devices and modules.
@@ -29,14 +28,9 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
         + device.submodules.len()
         + device.process_data.images.len();
     notes.add_many(NoteKind::OtherPart, parts, subject);
-    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, subject);
-    notes.add_many(NoteKind::Doubt, doubts::of_device(context.catalog, device).len(), subject);
+    note::of_device(context.catalog, device, notes, subject);
     notes.add_many(NoteKind::Extension, device.extensions.len(), subject);
-    for group in device.groups.iter().filter(|group| group.index().is_none()) {
-        let others = group.items.iter().filter(|item| item.object().is_none()).count();
-        notes.add_many(NoteKind::NotAnObject, others, Subject::Named(&group.name));
-    }
+    note::of_chapters(device, notes);
     if !context.is_esi {
         let header = &device.header;
         let texts = [&header.file_version, &header.file_revision, &header.description, &header.created_by];

@@ -194,10 +194,7 @@ fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
                 || behavior.hidden
         });
         notes.add_many(NoteKind::Behavior, more, subject);
-        let availability = usize::from(item.availability.is_some()) + item.variants.len();
-        notes.add_many(NoteKind::Availability, availability, subject);
-        notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
-        notes.add_many(NoteKind::Relation, note::relations(item), subject);
+        note::of_item(item, notes, subject);
         notes.add_many(NoteKind::Extension, item.extensions.len(), subject);
         notes.add_many(NoteKind::Configuration, item.configured.is_some(), subject);
         notes.add_many(NoteKind::Setting, item.flags != 0, subject);

@@ -8,7 +8,6 @@ use super::options::TrackedOptions;
 use crate::note::{self, NoteKind, Notes, Subject};
 use crate::options::MissingFacts;
 use crate::types::resolved;
-use lexibus_codegen::facts::doubts;
 use lexibus_codegen::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
     ProcessImage, ProfinetSettings, SlotNumbers, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, Type, TypeDef,
@@ -353,10 +352,8 @@ fn losses(catalog: &Catalog, device: &Device, notes: &mut Notes) {
     notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), subject);
     let parts = note::parts_of_tables(device) + device.code_tables.len();
     notes.add_many(NoteKind::OtherPart, parts, subject);
-    notes.add_many(NoteKind::Doubt, doubts::of_device(catalog, device).len(), subject);
+    note::of_device(catalog, device, notes, subject);
     notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), subject);
-    let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
-    notes.add_many(NoteKind::Axis, axes, subject);
     for group in &device.groups {
         for item in &group.items {
             let in_image = item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
@@ -369,11 +366,8 @@ fn losses(catalog: &Catalog, device: &Device, notes: &mut Notes) {
                     let limits = usize::from(!item.limits.is_empty()) + usize::from(item.default.is_some());
                     notes.add_many(NoteKind::Limits, limits, subject);
                     notes.add_many(NoteKind::Behavior, item.behavior.is_some(), subject);
-                    let available = usize::from(item.availability.is_some()) + item.variants.len();
-                    notes.add_many(NoteKind::Availability, available, subject);
-                    notes.add_many(NoteKind::Relation, note::relations(item), subject);
+                    note::of_item(item, notes, subject);
                     notes.add_many(NoteKind::Documentation, item.documentation.is_some(), subject);
-                    notes.add_many(NoteKind::Doubt, item.doubts.len(), subject);
                 }
                 // A record cannot contain registers: it requires start-up values for all its bytes, and registers have
                 // none.

@@ -1,5 +1,7 @@
 //! Names of GSDML data types.
 
+use std::borrow::Cow;
+
 use super::Context;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
@@ -10,35 +12,29 @@ const MAX_DEPTH: usize = 8;
 
 /// The GSDML name of a data type.
 pub(super) struct Name<'t> {
-    pub(super) name: &'t str,
+    pub(super) name: Cow<'t, str>,
     pub(super) needs_length: bool,
     pub(super) note: Option<NoteKind>,
 }
 
-fn plain(name: &str) -> Name<'_> {
-    Name { name, needs_length: false, note: None }
+fn plain<'t>(name: impl Into<Cow<'t, str>>) -> Name<'t> {
+    Name { name: name.into(), needs_length: false, note: None }
 }
 
 /// Returns the GSDML name of a type with the given length in bits.
 pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
-    let octets = |note| Name { name: "OctetString", needs_length: true, note };
+    let octets = |note| Name { needs_length: true, note, ..plain("OctetString") };
     let (ty, note) = match defined_name(ty, types) {
         Ok(name) => return name,
         Err(below) => below,
     };
     let mut found = match ty {
         Type::Boolean if bits == 8 => plain("Boolean"),
-        Type::Unsigned(8) => plain("Unsigned8"),
-        Type::Unsigned(16) => plain("Unsigned16"),
-        Type::Unsigned(32) => plain("Unsigned32"),
-        Type::Unsigned(64) => plain("Unsigned64"),
-        Type::Integer(8) => plain("Integer8"),
-        Type::Integer(16) => plain("Integer16"),
-        Type::Integer(32) => plain("Integer32"),
-        Type::Integer(64) => plain("Integer64"),
+        Type::Unsigned(bits @ (8 | 16 | 32 | 64)) => plain(format!("Unsigned{bits}")),
+        Type::Integer(bits @ (8 | 16 | 32 | 64)) => plain(format!("Integer{bits}")),
         Type::Real32 => plain("Float32"),
         Type::Real64 => plain("Float64"),
-        Type::VisibleString(_) => Name { name: "VisibleString", needs_length: true, note: None },
+        Type::VisibleString(_) => Name { needs_length: true, ..plain("VisibleString") },
         Type::OctetString(_) => octets(None),
         Type::TimeOfDay => plain("TimeOfDay with date indication"),
         Type::TimeDifference => plain("TimeDifference with date indication"),
@@ -63,7 +59,7 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
         _ => name(ty, bits, context.types),
     };
     context.notes.add_all(note, Subject::Named(subject));
-    xml.attribute("DataType", name);
+    xml.attribute("DataType", &name);
     xml.attribute("ByteOffset", offset / 8);
     if is_bits && !is_byte {
         xml.attribute("BitOffset", offset % 8);
@@ -85,10 +81,10 @@ fn defined_name(mut ty: Type, types: &[TypeDef]) -> Result<Name<'_>, (Type, Opti
         let Some(def) = types.get(id.0 as usize) else { break };
         ty = match &def.shape {
             Shape::Alias(Type::OctetString(_)) if is_string(&def.name) => {
-                return Ok(Name { name: &def.name, needs_length: true, note: None });
+                return Ok(Name { needs_length: true, ..plain(def.name.as_str()) });
             }
             Shape::Alias(_) | Shape::Scaled { .. } | Shape::Record(_) if is_number(&def.name) => {
-                return Ok(plain(&def.name));
+                return Ok(plain(def.name.as_str()));
             }
             Shape::Alias(base) => *base,
             Shape::Enumeration { base, .. } => *base,

@@ -196,18 +196,13 @@ pub fn info(compilation: &Compilation) -> Info {
             .iter()
             .zip(of_devices)
             .filter(|(device, _)| is_in_main_file(device.origin) && !device.dictionary_only)
-            .map(|(described, argument)| DeviceInfo {
-                registers: is_table.then(|| registers(described)),
-                argument,
-                ..device(described, catalog)
-            })
+            .map(|(described, argument)| device(described, catalog, argument, is_table))
             .collect(),
         dictionary: main_devices().find(|device| device.dictionary_only).map(|device| dictionary(device, catalog)),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
         modules: is_modular.then(|| {
             let main_modules = catalog.modules.iter().zip(of_modules).filter(|(one, _)| is_in_main_file(one.origin));
-            let info = |(one, argument)| ModuleInfo { argument, ..module(one, catalog, is_gsdml) };
-            main_modules.map(info).collect()
+            main_modules.map(|(one, argument)| module(one, catalog, argument, is_gsdml)).collect()
         }),
         submodules: is_gsdml.then(|| {
             let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
@@ -242,7 +237,7 @@ fn declared<'g>(groups: &'g [Group], catalog: &'g Catalog) -> impl Iterator<Item
     groups.iter().filter(is_declared)
 }
 
-fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
+fn device(device: &Device, catalog: &Catalog, argument: Option<String>, is_table: bool) -> DeviceInfo {
     let DictionaryInfo { objects, entries } = dictionary(device, catalog);
     DeviceInfo {
         vendor_id: device.identity.vendor_id,
@@ -250,10 +245,10 @@ fn device(device: &Device, catalog: &Catalog) -> DeviceInfo {
         revision: device.identity.revision_number,
         name: device.name.to_string(),
         order_code: device.identity.order_code.to_string(),
-        argument: None,
+        argument,
         objects,
         entries,
-        registers: None,
+        registers: is_table.then(|| registers(device)),
         rx_pdos: pdos(&device.process_data, Direction::Receive),
         tx_pdos: pdos(&device.process_data, Direction::Transmit),
     }
@@ -278,7 +273,7 @@ fn dap(device: &Device, catalog: &Catalog) -> DapInfo {
     }
 }
 
-fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
+fn module(module: &Module, catalog: &Catalog, argument: Option<String>, is_gsdml: bool) -> ModuleInfo {
     let content = if is_gsdml {
         let virtual_submodules = virtual_submodules(&module.submodules, catalog);
         ModuleContent::Profinet {
@@ -296,7 +291,7 @@ fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
         }
     };
     let (id, name) = (module.id.to_string(), module.name.to_string());
-    ModuleInfo { id, ident: module.number, name, argument: None, content }
+    ModuleInfo { id, ident: module.number, name, argument, content }
 }
 
 fn virtual_submodules(uses: &[SubmoduleUse], catalog: &Catalog) -> Vec<SubmoduleInfo> {
