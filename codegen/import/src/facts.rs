@@ -55,9 +55,7 @@ impl Reader<'_, '_> {
         }
         let mut reference = None;
         let factor = self.factor(record, &unit, &mut reference).or(by_unit).filter(|factor| *factor != 1.0);
-        if let Some(factor) = factor.filter(|_| reference.is_none()) {
-            facts.push(("scale", real(factor)));
-        }
+        facts.extend(factor.filter(|_| reference.is_none()).map(|factor| ("scale", real(factor))));
         let offset = self.number(record, Field::Offset, &unit).map(Number::real).filter(|offset| *offset != 0.0);
         match (offset, &reference) {
             (Some(offset), None) => facts.push(("offset", real(offset))),
@@ -320,9 +318,7 @@ impl Reader<'_, '_> {
         listed: Option<Span>,
         facts: &mut Vec<(&'static str, String)>,
     ) {
-        if let Some(cell) = self.cell(record, Field::Orig) {
-            facts.push(("orig", quoted(&tidy(&cell.text))));
-        }
+        facts.extend(self.cell(record, Field::Orig).map(|cell| ("orig", quoted(&tidy(&cell.text)))));
         if let Some(cell) = self.cell(record, Field::Cite) {
             let page = cell.text.parse::<u32>().map_or_else(|_| quoted(&tidy(&cell.text)), |page| page.to_string());
             facts.push(("cite", page));
@@ -332,9 +328,7 @@ impl Reader<'_, '_> {
         let texts = cells.filter(|cell| Some(cell.span) != listed).map(|cell| tidy(&cell.text));
         let mut doc: Vec<String> = texts.chain(more).filter(|text| !cells::is_blank(text) && text != name).collect();
         doc.dedup();
-        if !doc.is_empty() {
-            facts.push(("doc", quoted(&doc.join(". "))));
-        }
+        facts.extend((!doc.is_empty()).then(|| ("doc", quoted(&doc.join(". ")))));
     }
 }
 

@@ -1,13 +1,11 @@
 //! Collects all ambiguities in the source with the compiler's assumptions, sorted by severity.
 
 use std::collections::HashMap;
+use std::slice::from_ref;
 
 use super::area::Area;
-use super::codes::Codes;
 use super::entry::Doubt;
-use super::machines::Behavior;
-use super::process::Frame;
-use super::protocol::Protocol;
+use super::parts::Parts;
 use super::split::Section;
 use lexibus_codegen::ir::Severity;
 
@@ -63,101 +61,80 @@ impl Ranked<'_> {
     }
 }
 
-/// The pages of a device and the ambiguities on them.
-pub(super) struct AmbiguitySources<'d> {
-    /// The first page of the device, and the ambiguities that belong to no single element.
-    pub overview: (&'d str, &'d [Doubt]),
-    pub areas: &'d [Area],
-    /// The page of process data, if there is one.
-    pub process: Option<(&'d str, &'d [Frame])>,
-    /// The page of messages, if there is one.
-    pub protocol: Option<(&'d str, &'d Protocol)>,
-    /// The page of state machines and procedures, if there is one.
-    pub behavior: Option<(&'d str, &'d Behavior)>,
-    /// The pages of code tables.
-    pub codes: &'d [(String, String, Vec<Codes>)],
+/// Returns all ambiguities of a device by severity. `first` is the first page of the device. Severities without ambiguities are
+/// omitted.
+pub(super) fn ranked<'d>(parts: &'d Parts, first: &str) -> Vec<Ranked<'d>> {
+    let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
+        .map(|severity| Ranked { severity, assumptions: Vec::new() });
+    for assumption in all(parts, first) {
+        ranks[assumption.doubt.severity as usize].assumptions.push(assumption);
+    }
+    ranks.into_iter().filter(|rank| !rank.assumptions.is_empty()).collect()
 }
 
-impl<'d> AmbiguitySources<'d> {
-    /// Returns all ambiguities by severity. Severities without ambiguities are omitted.
-    pub fn ranked(&self) -> Vec<Ranked<'d>> {
-        let mut ranks = [Severity::Hazard, Severity::Value, Severity::Print]
-            .map(|severity| Ranked { severity, assumptions: Vec::new() });
-        for assumption in self.all() {
-            ranks[assumption.doubt.severity as usize].assumptions.push(assumption);
+/// Returns all ambiguities without repetitions.
+fn all<'d>(parts: &'d Parts, first: &str) -> Vec<Assumption<'d>> {
+    let mut all: Vec<Assumption<'d>> = Vec::new();
+    let mut known = HashMap::new();
+    visit(parts, first, |link, title, doubt| {
+        // Ignore the subject and the prefix: they differ between the types of one definition, and between the overview and the
+        // element, although the ambiguity is the same.
+        let key = Doubt { subject: String::new(), prefix: String::new(), ..doubt.clone() };
+        let at = *known.entry(key).or_insert(all.len());
+        if at == all.len() {
+            all.push(Assumption { elements: Vec::new(), doubt });
         }
-        ranks.into_iter().filter(|rank| !rank.assumptions.is_empty()).collect()
-    }
+        // An ambiguity with a subject occurs on the overview and again at each element with the subject's type.
+        let title = if doubt.subject.is_empty() { title } else { &doubt.subject };
+        if doubt.subject.is_empty() || all[at].elements.iter().all(|element| element.title != title) {
+            all[at].elements.push(Element { link, title: title.to_owned() });
+        }
+    });
+    all
+}
 
-    /// Returns all ambiguities without repetitions.
-    fn all(&self) -> Vec<Assumption<'d>> {
-        let mut all: Vec<Assumption<'d>> = Vec::new();
-        let mut known = HashMap::new();
-        self.visit(&mut |link, title, doubt| {
-            // Ignore the subject and the prefix: they differ between the types of one definition, and between the overview and
-            // the element, although the ambiguity is the same.
-            let key = Doubt { subject: String::new(), prefix: String::new(), ..doubt.clone() };
-            let at = *known.entry(key).or_insert(all.len());
-            if at == all.len() {
-                all.push(Assumption { elements: Vec::new(), doubt });
-            }
-            // An ambiguity with a subject occurs on the overview and again at each element with the subject's type.
-            let title = if doubt.subject.is_empty() { title } else { &doubt.subject };
-            if doubt.subject.is_empty() || all[at].elements.iter().all(|element| element.title != title) {
-                all[at].elements.push(Element { link, title: title.to_owned() });
-            }
-        });
-        all
-    }
-
-    /// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities on the overview
-    /// that have a subject come last.
-    fn visit(&self, visitor: &mut impl FnMut(String, &str, &'d Doubt)) {
-        let (first, doubts) = self.overview;
-        let (of_device, with_subject): (Vec<_>, Vec<_>) = doubts.iter().partition(|doubt| doubt.subject.is_empty());
-        of_device.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));
-        for area in self.areas {
-            let file = &area.file;
-            area.doubts.iter().for_each(|doubt| visitor(file.clone(), &area.title, doubt));
-            for section in &area.sections {
-                let (anchor, title) = (section.anchor.as_deref(), named(&section.number, &section.name));
-                let link = || format!("{file}#{}", anchor.unwrap_or_default());
-                section.doubts.iter().for_each(|doubt| visitor(link(), &title, doubt));
-                for shared in &section.shared {
-                    for row in shared.rows(&section.rows) {
-                        visitor(format!("{file}#{}", row.anchor), &named(&row.number, &row.name), &shared.doubt);
-                    }
-                }
-                for row in &section.rows {
-                    let (link, title) = (|| format!("{file}#{}", row.anchor), named(&row.number, &row.name));
-                    row.doubts.iter().chain(&row.doubts_of_type).for_each(|doubt| visitor(link(), &title, doubt));
+/// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities on the overview that
+/// have a subject come last.
+fn visit<'d>(parts: &'d Parts, first: &str, mut visitor: impl FnMut(String, &str, &'d Doubt)) {
+    let mut visit = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
+        let hash = if anchor.is_empty() { "" } else { "#" };
+        doubts.iter().for_each(|doubt| visitor(format!("{file}{hash}{anchor}"), title, doubt));
+    };
+    let overview = |has_subject: bool| {
+        parts.overview.doubts.iter().filter(move |doubt| doubt.subject.is_empty() != has_subject).map(from_ref)
+    };
+    overview(false).for_each(|doubt| visit(first, "", "Device", doubt));
+    for Area { file, title, doubts, sections, .. } in &parts.areas {
+        visit(file, "", title, doubts);
+        for section in sections {
+            let anchor = section.anchor.as_deref().unwrap_or_default();
+            visit(file, anchor, &named(&section.number, &section.name), &section.doubts);
+            for shared in &section.shared {
+                for row in shared.rows(&section.rows) {
+                    visit(file, &row.anchor, &named(&row.number, &row.name), from_ref(&shared.doubt));
                 }
             }
-        }
-        if let Some((file, behavior)) = self.behavior {
-            let machines = behavior.machines.iter().map(|machine| (&machine.anchor, &machine.title, &machine.doubts));
-            let sequences = behavior.sequences.iter().map(|one| (&one.anchor, &one.name, &one.doubts));
-            for (anchor, title, doubts) in machines.chain(sequences) {
-                doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));
+            for row in &section.rows {
+                let title = named(&row.number, &row.name);
+                visit(file, &row.anchor, &title, &row.doubts);
+                visit(file, &row.anchor, &title, &row.doubts_of_type);
             }
         }
-        let mut visit_all = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
-            doubts.iter().for_each(|doubt| visitor(format!("{file}#{anchor}"), title, doubt));
-        };
-        if let Some((file, frames)) = self.process {
-            frames.iter().for_each(|frame| visit_all(file, &frame.anchor, &frame.title, &frame.doubts));
-        }
-        if let Some((file, protocol)) = self.protocol {
-            protocol
-                .messages
-                .iter()
-                .for_each(|message| visit_all(file, &message.anchor, &message.name, &message.doubts));
-        }
-        for (file, _, tables) in self.codes {
-            tables.iter().for_each(|table| visit_all(file, &table.anchor, &table.title, &table.doubts));
-        }
-        with_subject.into_iter().for_each(|doubt| visitor(first.to_owned(), "Device", doubt));
     }
+    if let Some((file, behavior)) = &parts.behavior {
+        behavior.machines.iter().for_each(|one| visit(file, &one.anchor, &one.title, &one.doubts));
+        behavior.sequences.iter().for_each(|one| visit(file, &one.anchor, &one.name, &one.doubts));
+    }
+    if let Some(file) = &parts.process {
+        parts.data.frames.iter().for_each(|frame| visit(file, &frame.anchor, &frame.title, &frame.doubts));
+    }
+    if let Some((file, protocol)) = &parts.protocol {
+        protocol.messages.iter().for_each(|message| visit(file, &message.anchor, &message.name, &message.doubts));
+    }
+    for (file, _, tables) in &parts.codes {
+        tables.iter().for_each(|table| visit(file, &table.anchor, &table.title, &table.doubts));
+    }
+    overview(true).for_each(|doubt| visit(first, "", "Device", doubt));
 }
 
 fn named(number: &str, name: &str) -> String {

@@ -154,9 +154,7 @@ fn field(entry: &BitFieldEntry) -> Field {
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
         _ => {}
     }
-    if let Some(condition) = &entry.when {
-        facts.push(format!("While {}.", words::PLAIN.holds(condition)));
-    }
+    facts.extend(entry.when.as_ref().map(|condition| format!("While {}.", words::PLAIN.holds(condition))));
     facts.extend(entry.trigger.map(|trigger| match trigger {
         Trigger::Rising => "Acts on a rising edge.".to_owned(),
         Trigger::Falling => "Acts on a falling edge.".to_owned(),
@@ -185,9 +183,7 @@ fn field(entry: &BitFieldEntry) -> Field {
 fn labels(values: &[EnumValue], owner: &str) -> Vec<Label> {
     let label = |value: &EnumValue| {
         let mut facts = Vec::new();
-        if let Some(condition) = &value.when {
-            facts.push(format!("While {}.", words::PLAIN.holds(condition)));
-        }
+        facts.extend(value.when.as_ref().map(|condition| format!("While {}.", words::PLAIN.holds(condition))));
         facts.extend(words::PLAIN.description(value.documentation.as_deref()));
         facts.extend(value.availability.as_ref().map(|availability| words::PLAIN.availability(availability)));
         Label {

@@ -87,17 +87,13 @@ fn to_value(targets: &Targets<'_>, id: ItemId, part: Part) -> Option<Link> {
 
 /// Adds relations to the tables and codes on these pages. `pages` contains the file and the tables of each page.
 /// Returns the links from items to codes.
-pub(super) fn link<'p>(
-    targets: &Targets<'_>,
-    pages: impl IntoIterator<Item = (&'p str, &'p mut Vec<Codes>)>,
-) -> CodesOfItems {
+pub(super) fn link(targets: &Targets<'_>, pages: &mut [(String, String, Vec<Codes>)]) -> CodesOfItems {
     let (values, mentions) = (Values::new(targets.device), Mentions::new(targets.device));
     let relation = |title: &'static str, mentions: &[Mention]| {
         Relation::new(title, mentions.iter().filter_map(|mention| targets.mentioned(*mention)))
     };
     let mut of_items = CodesOfItems::default();
-    for (file, shown) in pages.into_iter().flat_map(|(file, tables)| tables.iter_mut().map(move |table| (file, table)))
-    {
+    for (file, shown) in pages.iter_mut().flat_map(|(file, _, tables)| tables.iter_mut().map(|table| (&*file, table))) {
         let Some(table) = targets.device.code_tables.get(shown.position) else { continue };
         let link = |anchor: &str, title: &str| Link { title: title.to_owned(), target: format!("{file}#{anchor}") };
         let (of_table, to_table) = (mentions.of_table(table), link(&shown.anchor, &shown.title));

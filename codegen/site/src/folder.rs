@@ -7,7 +7,9 @@ use std::rc::Rc;
 use super::addresses::Addresses;
 use super::anchor::Names;
 use super::area;
+use super::assumptions;
 use super::builder;
+use super::code_references;
 use super::codes;
 use super::diagnostics::{self, ShownDiagnostics};
 use super::entry::Known;
@@ -23,6 +25,7 @@ use super::pages::{Content, Frameset, Pages, FIRST, ROOT};
 use super::parts::Parts;
 use super::process::{self, About, ProcessPart};
 use super::protocol;
+use super::references::Targets;
 use super::requests::OfRecord;
 use super::revisions::{Changes, Previous};
 use super::search::{self, Entry, Index};
@@ -32,6 +35,7 @@ use super::twins;
 use super::Page;
 use lexibus_codegen::backend::rust;
 use lexibus_codegen::facts::profinet::ANY_SUBMODULE;
+use lexibus_codegen::facts::referrers::Referrers;
 use lexibus_codegen::facts::{self, pdo, words};
 use lexibus_codegen::ir::{Catalog, Device, Manual};
 
@@ -192,7 +196,7 @@ impl<'a> Folder<'a> {
         let manual = words::manual(device);
         let overview = overview::overview(catalog, device, &manual);
         let (parts, mut pages) = self.parts(device, overview, &manual);
-        let ranked = split::pages(parts.assumptions(&first));
+        let ranked = split::pages(assumptions::ranked(&parts, &first));
         let assumptions = self.numbered("Assumptions", ranked.len());
         pages.extend(assumptions.iter().cloned());
         let previous = Previous::of(self.addresses, device);
@@ -208,13 +212,8 @@ impl<'a> Folder<'a> {
         }
         if let (Some((file, _)), Some(previous)) = (&changes, previous) {
             let key = (self.name.clone(), at);
-            self.changes.push(Changes {
-                previous,
-                key,
-                frame: frame.clone(),
-                folder: self.open.clone(),
-                file: file.clone(),
-            });
+            let (frame, folder, file) = (frame.clone(), self.open.clone(), file.clone());
+            self.changes.push(Changes { previous, key, frame, folder, file });
         }
         let links = ModuleLinks { modules: common.modules, path: &common.path };
         let contents = parts.contents(slots::slots(catalog, device, links));
@@ -273,7 +272,7 @@ impl<'a> Folder<'a> {
         let codes = self.numbered("Codes", tables.len());
         pages.extend(codes.iter().cloned());
         parts.codes = codes.into_iter().zip(tables).map(|((file, title), tables)| (file, title, tables)).collect();
-        parts.link(device);
+        link(&mut parts, device);
         (parts, pages)
     }
 
@@ -325,6 +324,22 @@ impl Common<'_> {
         let moved = |(file, title): &(String, String)| (format!("{path}{file}"), title.clone());
         let (list, shared) = (self.list.as_ref().map(moved), Rc::new(self.shared.moved(moved)));
         Common { modules: self.modules, path: path.to_owned(), list, shared }
+    }
+}
+
+/// Adds the links between the elements of a device.
+fn link(parts: &mut Parts, device: &Device) {
+    let (targets, referrers) = (Targets::new(device, parts), Referrers::new(device));
+    let codes = code_references::link(&targets, &mut parts.codes);
+    for row in parts.areas.iter_mut().flat_map(|area| &mut area.sections).flat_map(|section| &mut section.rows) {
+        row.relations = targets.relations(row.id, &referrers);
+        row.relations.extend(codes.of(row.id));
+    }
+    for entry in parts.data.frames.iter_mut().flat_map(|frame| &mut frame.entries) {
+        entry.target = targets.item(entry.item).map(|link| link.target.clone()).unwrap_or_default();
+    }
+    if let Some((_, behavior)) = &mut parts.behavior {
+        targets.link(behavior);
     }
 }
 

@@ -172,8 +172,6 @@ fn clocks(clocks: &DistributedClocks) -> String {
 
 fn profinet_identity(settings: &ProfinetSettings) -> String {
     let mut facts = vec![format!("device {}, module {}", hex16(settings.device_id), hex32(settings.ident))];
-    if !settings.dns_name.is_empty() {
-        facts.push(format!("name {}", settings.dns_name));
-    }
+    facts.extend((!settings.dns_name.is_empty()).then(|| format!("name {}", settings.dns_name)));
     facts.join("; ")
 }

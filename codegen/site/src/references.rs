@@ -2,12 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::area::Area;
 use super::entry::Row;
 use super::link::{Link, Relation};
 use super::machines::{Behavior, Machine};
-use super::process::Frame;
-use super::protocol::Protocol;
+use super::parts::Parts;
 use lexibus_codegen::facts::mentions::Mention;
 use lexibus_codegen::facts::referrers::{self, Part, Referrer, Referrers};
 use lexibus_codegen::ir::owner::Owner;
@@ -31,16 +29,8 @@ pub(super) struct Targets<'d> {
     messages: Vec<Link>,
 }
 
-/// The areas, process data, state machines, procedures and messages of a device, with the file names of their pages.
-pub(super) struct Pages<'p> {
-    pub areas: &'p [Area],
-    pub frames: (Option<&'p str>, &'p [Frame]),
-    pub behavior: Option<(&'p str, &'p Behavior)>,
-    pub protocol: Option<(&'p str, &'p Protocol)>,
-}
-
 impl<'d> Targets<'d> {
-    pub fn new(device: &'d Device, pages: &Pages<'_>) -> Self {
+    pub fn new(device: &'d Device, pages: &Parts) -> Self {
         let link = |file: &str, anchor: &str, title: &str| Link {
             title: title.to_owned(),
             target: format!("{file}#{anchor}"),
@@ -61,14 +51,14 @@ impl<'d> Targets<'d> {
                 items.insert(row.id, link(&area.file, &row.anchor, title.trim()));
             }
         }
-        let (file, frames) = pages.frames;
-        let frames = || frames.iter().filter_map(|frame| Some(link(file?, &frame.anchor, &frame.title)));
+        let file = pages.process.as_deref();
+        let frames = || pages.data.frames.iter().filter_map(|frame| Some(link(file?, &frame.anchor, &frame.title)));
         // The frames of the PDOs precede those of the process images.
         let (pdos, images) = (device.process_data.pdos.len(), &device.process_data.images);
         let states = |file: &str, machine: &Machine| {
             machine.states.iter().map(|state| link(file, &state.anchor, &format!("state {}", state.name))).collect()
         };
-        let (machines, states, procedures) = match pages.behavior {
+        let (machines, states, procedures) = match &pages.behavior {
             Some((file, behavior)) => (
                 behavior.machines.iter().map(|machine| link(file, &machine.anchor, &machine.title)).collect(),
                 behavior.machines.iter().map(|machine| states(file, machine)).collect(),
@@ -76,7 +66,7 @@ impl<'d> Targets<'d> {
             ),
             None => Default::default(),
         };
-        let messages = pages.protocol.map_or_else(Vec::new, |(file, protocol)| {
+        let messages = pages.protocol.as_ref().map_or_else(Vec::new, |(file, protocol)| {
             protocol.messages.iter().map(|message| link(file, &message.anchor, &message.name)).collect()
         });
         Targets {

@@ -68,17 +68,13 @@ pub fn text(register: &RegisterBinding, item: &Item, tables: &[ModbusTable]) -> 
     if register.words_per_address > 1 {
         facts.push(format!("{} bits per address", 16 * u16::from(register.words_per_address)));
     }
-    if let Some(bit) = register.bit_offset {
-        facts.push(format!("from bit {bit}"));
-    }
+    facts.extend(register.bit_offset.map(|bit| format!("from bit {bit}")));
     let is_word = matches!(register.space, RegisterSpace::Holding | RegisterSpace::Input);
     if is_word && register.count > 1 && !item.type_on(Bus::Modbus).is_bytes() {
         let order = if register.low_word_first { "low word first" } else { "high word first" };
         facts.push(format!("{order}{}", if register.is_order_assumed { " (assumed)" } else { "" }));
     }
-    if register.bytes_swapped {
-        facts.push("bytes swapped".to_owned());
-    }
+    facts.extend(register.bytes_swapped.then(|| "bytes swapped".to_owned()));
     format!("{} ({})", printed(register), facts.join("; "))
 }
 

@@ -228,21 +228,15 @@ impl Words<'_> {
         if let Some(access) = behavior.pdi_access {
             sentences.push(format!("Access rights of the slave application (PDI): {}.", access_name(access)));
         }
-        if let Some(effective) = &behavior.effective {
-            sentences.push(format!("Changes take effect after: {}", sentence(&self.escaped(effective))));
-        }
-        for condition in &behavior.write_when {
-            sentences.push(format!("The value can be written only while {}.", self.holds(condition)));
-        }
+        let effective = behavior.effective.as_ref().map(|effective| sentence(&self.escaped(effective)));
+        sentences.extend(effective.map(|effective| format!("Changes take effect after: {effective}")));
+        let conditions = behavior.write_when.iter().map(|condition| self.holds(condition));
+        sentences.extend(conditions.map(|condition| format!("The value can be written only while {condition}.")));
         if !behavior.writable_values.is_empty() {
             sentences.push(format!("Only the value {} can be written.", self.values(&behavior.writable_values)));
         }
-        if behavior.self_clearing {
-            sentences.push("The device resets the value automatically.".to_owned());
-        }
-        if behavior.write_once {
-            sentences.push("The value can be written only once.".to_owned());
-        }
+        sentences.extend(behavior.self_clearing.then(|| "The device resets the value automatically.".to_owned()));
+        sentences.extend(behavior.write_once.then(|| "The value can be written only once.".to_owned()));
         sentences.extend(behavior.srdo.map(|srdo| match srdo.inverted {
             Some((index, sub)) => {
                 format!("Mappable into SRDOs. The inverted data are in {}.", number::object(index, sub))
@@ -418,9 +412,7 @@ impl Words<'_> {
             (Some(physical), false) => physical.range((Some(first), Some(last)), raw, &unit),
         };
         let mut list: Vec<String> = limits.allowed.iter().take(shown).map(one).collect();
-        if limits.allowed.len() > shown {
-            list.push("…".to_owned());
-        }
+        list.extend((limits.allowed.len() > shown).then(|| "…".to_owned()));
         list.join(", ")
     }
 
@@ -431,21 +423,17 @@ impl Words<'_> {
         if !availability.models.is_empty() {
             sentences.push(format!("Available only on {}.", self.list(&availability.models)));
         }
-        match (&availability.since, &availability.until) {
+        let [since, until] = [&availability.since, &availability.until]
+            .map(|version| version.as_ref().map(|version| self.escaped(version)));
+        sentences.extend(match (since, until) {
             (Some(since), Some(until)) => {
-                sentences.push(format!(
-                    "Available since firmware {}, removed in firmware {}.",
-                    self.escaped(since),
-                    self.escaped(until)
-                ));
+                Some(format!("Available since firmware {since}, removed in firmware {until}."))
             }
-            (Some(since), None) => sentences.push(format!("Available since firmware {}.", self.escaped(since))),
-            (None, Some(until)) => sentences.push(format!("Removed in firmware {}.", self.escaped(until))),
-            (None, None) => {}
-        }
-        if let Some(other) = &availability.replaced_by {
-            sentences.push(format!("Replaced by {}.", self.name(other)));
-        }
+            (Some(since), None) => Some(format!("Available since firmware {since}.")),
+            (None, Some(until)) => Some(format!("Removed in firmware {until}.")),
+            (None, None) => None,
+        });
+        sentences.extend(availability.replaced_by.as_ref().map(|other| format!("Replaced by {}.", self.name(other))));
         if !availability.buses.is_empty() {
             let buses: Vec<&str> = availability.buses.iter().map(bus_name).collect();
             sentences.push(format!("Available only on {}.", enumerated(&buses)));

@@ -192,9 +192,7 @@ impl Maker<'_> {
             CompactString::const_new("SupportedProtocols"),
             CompactString::from(self.require(options.supported_protocols(), "supported-protocols")),
         )];
-        if let Some(classes) = &options.rt_classes() {
-            attributes.push(("SupportedRT_Classes".into(), classes.into()));
-        }
+        attributes.extend(options.rt_classes().as_ref().map(|classes| ("SupportedRT_Classes".into(), classes.into())));
         let name = CompactString::from(self.require(options.interface_name(), "interface-name"));
         let interface = Submodule {
             id: self.id("Interface"),

@@ -26,9 +26,7 @@ impl Object {
 
     /// Adds the requests on EtherCAT.
     pub fn ethercat(&self, is_readable: bool, written: Option<&Written>, all: &mut Vec<Request>) {
-        if is_readable {
-            all.push(("pysoem read", format!("slave.sdo_read({})", self.python())));
-        }
+        all.extend(is_readable.then(|| ("pysoem read", format!("slave.sdo_read({})", self.python()))));
         if let Some(written) = written {
             all.push(("pysoem write", format!("slave.sdo_write({}, {})", self.python(), written.python())));
         }
