@@ -249,14 +249,14 @@ pub(super) fn table(text: &str) -> Option<(Table, Option<&'static str>)> {
         return Some((*table, None));
     }
     let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();
-    match letters.as_str() {
-        "hr" | "hreg" | "4x" | "4xxxx" | "rw" => return Some((Table::Holding, None)),
-        "ir" | "ireg" | "3x" | "3xxxx" => return Some((Table::Input, None)),
-        "di" | "1x" | "1xxxx" => return Some((Table::Discrete, None)),
-        "co" | "0x" | "do" => return Some((Table::Coil, None)),
-        _ => {}
-    }
-    by_function(&lower)
+    let table = match letters.as_str() {
+        "hr" | "hreg" | "4x" | "4xxxx" | "rw" => Table::Holding,
+        "ir" | "ireg" | "3x" | "3xxxx" => Table::Input,
+        "di" | "1x" | "1xxxx" => Table::Discrete,
+        "co" | "0x" | "do" => Table::Coil,
+        _ => return by_function(&lower),
+    };
+    Some((table, None))
 }
 
 fn by_function(text: &str) -> Option<(Table, Option<&'static str>)> {

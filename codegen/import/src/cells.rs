@@ -23,6 +23,11 @@ impl Number {
             Number::Real(value) => (value.fract() == 0.0 && value.abs() < 1e15).then_some(value as i128),
         }
     }
+
+    /// Returns the number if it is a whole number of up to 32 bits.
+    pub fn unsigned(self) -> Option<u32> {
+        u32::try_from(self.int()?).ok()
+    }
 }
 
 /// Returns whether a cell is empty or contains only a placeholder such as `n/a`.

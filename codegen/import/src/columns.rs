@@ -325,7 +325,7 @@ fn plain(record: &Record) -> Vec<Column> {
 fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'m str> {
     let mut list = plain(record);
     for (field, name) in map {
-        let by_title = || record.filled().position_of(|text| normal(text) == normal(name));
+        let by_title = || record.filled().find(|(_, cell)| normal(&cell.text) == normal(name)).map(|(at, _)| at);
         let Some(at) = number(name).filter(|&at| at < record.cells.len()).or_else(by_title) else {
             return Err(name.as_str());
         };
@@ -344,16 +344,6 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
 }
 
 /// Finds the position of a cell by its text.
-trait PositionOf {
-    fn position_of(self, is_it: impl Fn(&str) -> bool) -> Option<usize>;
-}
-
-impl<'a, I: Iterator<Item = (usize, &'a super::records::Cell)>> PositionOf for I {
-    fn position_of(mut self, is_it: impl Fn(&str) -> bool) -> Option<usize> {
-        self.find(|(_, cell)| is_it(&cell.text)).map(|(at, _)| at)
-    }
-}
-
 /// Converts a title to lowercase words without punctuation, separated by single spaces.
 pub(super) fn normal(title: &str) -> String {
     let letters = title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { ' ' });

@@ -99,11 +99,7 @@ impl Reader<'_, '_> {
 
     fn number(&mut self, record: &Record, field: Field, unit: &str) -> Option<Number> {
         let cell = self.cell(record, field)?;
-        let number = cells::quantity(&cell.text, unit, self.style.comma);
-        if number.is_none() {
-            self.unreadable(cell, "a number");
-        }
-        number
+        self.readable(cells::quantity(&cell.text, unit, self.style.comma), cell, "a number")
     }
 
     fn factor(&mut self, record: &Record, unit: &str, reference: &mut Option<Reference>) -> Option<f64> {

@@ -184,6 +184,14 @@ impl Reader<'_, '_> {
         self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
     }
 
+    /// Returns `found`. Reports the cell as unreadable if `found` is `None`.
+    pub fn readable<T>(&mut self, found: Option<T>, cell: &Cell, what: &str) -> Option<T> {
+        if found.is_none() {
+            self.unreadable(cell, what);
+        }
+        found
+    }
+
     pub fn unreadable(&mut self, cell: &Cell, what: &str) {
         let message = format!("`{}` is not {what}", brief(&tidy(&cell.text)));
         self.report(&codes::CSV_UNREADABLE_CELL, cell.span, message, "left out; the rest of the row is kept");
@@ -270,9 +278,7 @@ impl Reader<'_, '_> {
             };
         }
         if let Some(cell) = self.cell(record, Field::Param) {
-            let number =
-                cells::number(&cell.text, false).and_then(Number::int).and_then(|number| u32::try_from(number).ok());
-            return match number {
+            return match cells::number(&cell.text, false).and_then(Number::unsigned) {
                 Some(number) => Ok(RowAddress::Parameter(number)),
                 None => self.no_row(cell, "a parameter number", "the number cannot be read"),
             };
@@ -294,10 +300,7 @@ impl Reader<'_, '_> {
         let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
         let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");
         let found = address::object(&cell.text, sub).filter(|_| !is_marked || digits.count() == 6);
-        if found.is_none() {
-            self.unreadable(cell, "an object index of four digits");
-        }
-        found
+        self.readable(found, cell, "an object index of four digits")
     }
 
     fn register(
@@ -309,23 +312,15 @@ impl Reader<'_, '_> {
         let Some(printed) = address::read(&cell.text, self.style.addresses[0]) else {
             return self.no_row(cell, "a register address", "the address cannot be read");
         };
-        let table = self.cell(record, Field::Table).and_then(|cell| {
-            let found = address::table(&cell.text);
-            if found.is_none() {
-                self.unreadable(cell, "a Modbus table");
-            }
-            found.map(|(table, _)| table)
-        });
+        let cell = self.cell(record, Field::Table);
+        let table = cell.and_then(|cell| self.readable(address::table(&cell.text), cell, "a Modbus table"));
         let second = self.columns.all(Field::Reg).nth(1);
         let second = second.and_then(|column| record.cells.get(column.at)).filter(|cell| !cells::is_blank(&cell.text));
         let wire = second.and_then(|cell| {
             let found = address::read(&cell.text, self.style.addresses[1]);
-            if found.is_none() {
-                self.unreadable(cell, "a register address");
-            }
-            Some((cell, found?))
+            Some((cell, self.readable(found, cell, "a register address")?))
         });
-        let table = table.or(printed.table);
+        let table = table.map(|(table, _)| table).or(printed.table);
         Ok(match wire {
             Some((cell, second)) if object.is_none() && is_index(printed, second) => {
                 let message = "a hexadecimal second address that is greater than the first is read as an object index";
@@ -340,15 +335,12 @@ impl Reader<'_, '_> {
     /// input, an object or a parameter, or if its bits cannot be read.
     fn part(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<(u8, u8)> {
         // Only registers have parts; objects and parameters have none.
-        let table =
-            address.and_then(
-                |address| if let RowAddress::Register { table, .. } = address { Some(table) } else { None },
-            )?;
+        let Some(RowAddress::Register { table, printed, .. }) = address else { return None };
         if table.is_some_and(Table::is_bits) {
             return None;
         }
-        if let Some(RowAddress::Register { printed: Address { bits: Some(bits), .. }, .. }) = address {
-            return Some(*bits);
+        if printed.bits.is_some() {
+            return printed.bits;
         }
         let cell = self.cell(record, Field::Part)?;
         let found = address::mask(&cell.text).or_else(|| address::bit_range(&cell.text));
@@ -409,8 +401,8 @@ impl Reader<'_, '_> {
     fn size(&mut self, record: &Record, address: Option<&RowAddress>) -> Option<u32> {
         for (field, unit) in [(Field::Width, 1), (Field::Bytes, 8), (Field::Words, 16)] {
             let Some(cell) = self.cell(record, field) else { continue };
-            let number = cells::quantity(&cell.text, "", false).and_then(Number::int);
-            match number.and_then(|number| u32::try_from(number).ok()).filter(|number| (1..=4096).contains(number)) {
+            let number = cells::quantity(&cell.text, "", false).and_then(Number::unsigned);
+            match number.filter(|number| (1..=4096).contains(number)) {
                 Some(number) => return Some(number * unit),
                 None => self.unreadable(cell, "a length"),
             }
@@ -500,14 +492,9 @@ impl Reader<'_, '_> {
     /// from 1 to 1024.
     fn repetition(&mut self, record: &Record) -> Option<u32> {
         let cell = self.cell(record, Field::Count)?;
-        let number = cells::number(&cell.text, false).and_then(Number::int);
-        match number.and_then(|number| u32::try_from(number).ok()).filter(|number| (1..=1024).contains(number)) {
-            Some(number) => Some(number).filter(|&number| number > 1),
-            None => {
-                self.unreadable(cell, "a number of repetitions");
-                None
-            }
-        }
+        let number = cells::number(&cell.text, false).and_then(Number::unsigned);
+        let number = number.filter(|number| (1..=1024).contains(number));
+        self.readable(number, cell, "a number of repetitions").filter(|&number| number > 1)
     }
 }
 

@@ -14,8 +14,8 @@ use lexibus_codegen::backend::rust::{self, Calls};
 use lexibus_codegen::collections::HashMap;
 use lexibus_codegen::facts::{address, item, profinet};
 use lexibus_codegen::ir::{
-    Catalog, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ModuleId, ObjectBuses, Submodule,
-    SubmoduleId, TypeDef,
+    Catalog, CompactString, Documentation, Group, GroupKind, Identity, IoData, Manual, Module, ModuleId, ObjectBuses,
+    Submodule, SubmoduleId, Texts, TypeDef,
 };
 use lexibus_codegen::number::{hex16, hex32};
 
@@ -177,56 +177,54 @@ fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, ancho
     (0..).zip(groups).map(section).collect()
 }
 
-/// Returns the facts about a module or submodule: its description and order code.
-fn facts(name: &str, documentation: Option<&Documentation>, identity: &Identity) -> Vec<String> {
-    let mut facts = words::description(name, documentation);
+/// Returns a module or submodule with its names, description and order code.
+fn model(
+    number: u32,
+    anchor: String,
+    (name, names): (&CompactString, &Texts),
+    documentation: Option<&Documentation>,
+    identity: &Identity,
+) -> ModuleModel {
     let order = &identity.order_code;
+    let mut facts = words::description(name, documentation);
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
-    facts
+    let names = words::names(name, names);
+    ModuleModel {
+        anchor,
+        number: hex32(number),
+        order_code: words::one_line(order),
+        name: name.to_string(),
+        facts,
+        translations: words::translations(name, &names, documentation),
+        names,
+        frames: Vec::new(),
+        sections: Vec::new(),
+        parts: Vec::new(),
+    }
 }
 
 fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: Items<'_>) -> ModuleModel {
-    let names = words::names(&module.name, &module.names);
+    let about = About { buses: ObjectBuses::COE, manual: &Manual::default() };
+    let Module { name, names, documentation, identity, .. } = module;
     ModuleModel {
-        number: hex32(module.number),
-        order_code: words::one_line(&module.identity.order_code),
-        name: module.name.to_string(),
-        facts: facts(&module.name, module.documentation.as_deref(), &module.identity),
-        translations: words::translations(&module.name, &names, module.documentation.as_deref()),
-        names,
-        frames: process::frames(
-            &module.process_data,
-            &module.types,
-            About { buses: ObjectBuses::COE, manual: &Manual::default() },
-        ),
+        frames: process::frames(&module.process_data, &module.types, about),
         sections: sections(module.fixed_objects.iter().chain(&module.groups), items, &anchor),
         parts,
-        anchor,
+        ..model(module.number, anchor, (name, names), documentation.as_deref(), identity)
     }
 }
 
 fn submodule(submodule: &Submodule, anchor: String, items: Items<'_>) -> ModuleModel {
-    let mut facts = facts(&submodule.name, submodule.documentation.as_deref(), &submodule.identity);
-    facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
-    facts.extend(
-        submodule.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()),
-    );
+    let Submodule { name, names, documentation, identity, .. } = submodule;
+    let sections = sections(submodule.records.iter(), items, &anchor);
+    let mut model = model(submodule.ident, anchor, (name, names), documentation.as_deref(), identity);
+    model.facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
+    let safety = "With parameters of functional safety (PROFIsafe).";
+    model.facts.extend(submodule.f_parameters.is_some().then(|| safety.to_owned()));
     let image = |data: &IoData, title: &str| process::image(&data.image, items.types, "", title);
     let inputs = submodule.input.as_deref().map(|data| image(data, "Inputs of the controller"));
     let outputs = submodule.output.as_deref().map(|data| image(data, "Outputs of the controller"));
-    let names = words::names(&submodule.name, &submodule.names);
-    ModuleModel {
-        number: hex32(submodule.ident),
-        order_code: words::one_line(&submodule.identity.order_code),
-        name: submodule.name.to_string(),
-        facts,
-        translations: words::translations(&submodule.name, &names, submodule.documentation.as_deref()),
-        names,
-        frames: inputs.into_iter().chain(outputs).collect(),
-        sections: sections(submodule.records.iter(), items, &anchor),
-        parts: Vec::new(),
-        anchor,
-    }
+    ModuleModel { frames: inputs.into_iter().chain(outputs).collect(), sections, ..model }
 }
 
 fn section(position: u32, group: &Group, rows: &mut Rows<'_>) -> (String, Section) {

@@ -25,37 +25,25 @@ pub(super) enum Header {
     Manufacturer,
 }
 
-/// The header sections and object lists, in the order of the standard.
-const HEADERS: [Header; 11] = [
-    Header::FileInfo,
-    Header::DeviceInfo,
-    Header::DummyUsage,
-    Header::Comments,
-    Header::Commissioning,
-    Header::SupportedModules,
-    Header::ConnectedModules,
-    Header::DynamicChannels,
-    Header::Mandatory,
-    Header::Optional,
-    Header::Manufacturer,
+/// The names of the header sections and object lists, in the order of the standard.
+const HEADERS: [(Header, &str); 11] = [
+    (Header::FileInfo, "FileInfo"),
+    (Header::DeviceInfo, "DeviceInfo"),
+    (Header::DummyUsage, "DummyUsage"),
+    (Header::Comments, "Comments"),
+    // CiA 306 misspells the name of the section about commissioning.
+    (Header::Commissioning, "DeviceComissioning"),
+    (Header::SupportedModules, "SupportedModules"),
+    (Header::ConnectedModules, "ConnectedModules"),
+    (Header::DynamicChannels, "DynamicChannels"),
+    (Header::Mandatory, "MandatoryObjects"),
+    (Header::Optional, "OptionalObjects"),
+    (Header::Manufacturer, "ManufacturerObjects"),
 ];
 
 impl Header {
     pub(super) fn name(self) -> &'static str {
-        match self {
-            Header::FileInfo => "FileInfo",
-            Header::DeviceInfo => "DeviceInfo",
-            Header::DummyUsage => "DummyUsage",
-            Header::Comments => "Comments",
-            // CiA 306 misspells the name of the section about commissioning.
-            Header::Commissioning => "DeviceComissioning",
-            Header::SupportedModules => "SupportedModules",
-            Header::ConnectedModules => "ConnectedModules",
-            Header::DynamicChannels => "DynamicChannels",
-            Header::Mandatory => "MandatoryObjects",
-            Header::Optional => "OptionalObjects",
-            Header::Manufacturer => "ManufacturerObjects",
-        }
+        HEADERS.iter().find(|(header, _)| *header == self).map_or("", |(_, name)| name)
     }
 
     /// Returns whether the section occurs only in a DCF.
@@ -101,7 +89,7 @@ impl<'a> Extras<'a> {
             return;
         };
         let extra = Extra { key, value };
-        match HEADERS.into_iter().find(|header| header.name() == section) {
+        match HEADERS.into_iter().find(|(_, name)| *name == section).map(|(header, _)| header) {
             Some(header) if header.configures() && context.flavor == Flavor::Eds => {
                 notes.add(NoteKind::Configuration, Subject::Named(&extension.key));
             }
@@ -124,7 +112,7 @@ impl<'a> Extras<'a> {
         }
         let mut next = mentioned.clone().into_iter();
         let ordered = |header: Header| if mentioned.contains(&header) { next.next() } else { Some(header) };
-        HEADERS.into_iter().filter_map(ordered).collect()
+        HEADERS.into_iter().map(|(header, _)| header).filter_map(ordered).collect()
     }
 
     /// Returns the extension attributes of a header section.

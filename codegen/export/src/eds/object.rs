@@ -44,16 +44,8 @@ pub(super) fn object(writer: &mut Writer, context: &Context<'_>, group: &Group, 
 }
 
 /// Returns the number that CiA 301 7.4.3 assigns to an object code.
-fn number(code: ObjectCode) -> u8 {
-    match code {
-        ObjectCode::Null => 0,
-        ObjectCode::Domain => 2,
-        ObjectCode::DefType => 5,
-        ObjectCode::DefStruct => 6,
-        ObjectCode::Var => 7,
-        ObjectCode::Array => 8,
-        ObjectCode::Record => 9,
-    }
+fn number(code: ObjectCode) -> i128 {
+    (0..=9).find(|number| ObjectCode::from_number(*number) == Some(code)).unwrap_or_default()
 }
 
 /// An object that is being written.

@@ -206,25 +206,21 @@ pub(super) fn relations(
         let is_of_element = |key: &str| key.split_once('@').map_or(key, |(name, _)| name) == element;
         attributes.iter().filter(move |(key, _)| is_of_element(key)).cloned().collect::<Vec<_>>()
     };
+    let attribute = |key: &str, value: String| (key.into(), value.into());
     let mut list = Vec::new();
     let mut timing = Vec::new();
     if let Some(settings) = settings {
         let modes = settings.startup_modes.join(";");
-        if is_interface || modes != "Legacy" {
-            list.push(("ApplicationRelations@StartupMode".into(), modes.into()));
-        }
-        if settings.relations != 1 {
-            list.push((
-                "ApplicationRelations@NumberOfAR".into(),
-                compact_str::format_compact!("{}", settings.relations),
-            ));
-        }
-        if !settings.send_clocks.is_empty() {
-            timing.push(("TimingProperties@SendClock".into(), ranges(&settings.send_clocks).into()));
-        }
-        if !settings.reduction_ratios.is_empty() {
-            timing.push(("TimingProperties@ReductionRatio".into(), ranges(&settings.reduction_ratios).into()));
-        }
+        let has_modes = is_interface || modes != "Legacy";
+        list.extend(has_modes.then(|| attribute("ApplicationRelations@StartupMode", modes)));
+        let relations = Some(settings.relations).filter(|relations| *relations != 1);
+        list.extend(relations.map(|relations| attribute("ApplicationRelations@NumberOfAR", relations.to_string())));
+        let numbers = [
+            ("TimingProperties@SendClock", &settings.send_clocks),
+            ("TimingProperties@ReductionRatio", &settings.reduction_ratios),
+        ];
+        let numbers = numbers.into_iter().filter(|(_, numbers)| !numbers.is_empty());
+        timing.extend(numbers.map(|(key, numbers)| attribute(key, ranges(numbers))));
     }
     list.extend(of("ApplicationRelations"));
     list.append(&mut timing);
