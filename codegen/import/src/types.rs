@@ -56,20 +56,15 @@ pub(super) fn read(text: &str) -> Option<Written> {
         None if is_swapped => Order { low_first: Some(true), swap: None },
         None => Order::default(),
     };
-    let (glued, order) = match glued.strip_suffix("le").filter(|rest| rest.ends_with(|c: char| c.is_ascii_digit())) {
-        Some(rest) => (rest.to_owned(), Order { low_first: Some(true), swap: None }),
-        None => (
-            glued
-                .strip_suffix("be")
-                .filter(|rest| rest.ends_with(|c: char| c.is_ascii_digit()))
-                .map(str::to_owned)
-                .unwrap_or(glued),
-            order,
-        ),
+    let without = |suffix| glued.strip_suffix(suffix).filter(|rest| rest.ends_with(|c: char| c.is_ascii_digit()));
+    let (glued, order) = match (without("le"), without("be")) {
+        (Some(rest), _) => (rest, Order { low_first: Some(true), swap: None }),
+        (None, Some(rest)) => (rest, order),
+        (None, None) => (glued.as_str(), order),
     };
     // A single `char` is a byte, and an array of `char` is a text.
-    let glued = if glued == "char" && elements.is_some() { "chars".to_owned() } else { glued };
-    let written = single(&glued)?;
+    let glued = if glued == "char" && elements.is_some() { "chars" } else { glued };
+    let written = single(glued)?;
     Some(match (written.base, elements) {
         (Base::Text | Base::Bytes, Some(length)) => Written { length: Some(length), order, ..written },
         (_, elements) => Written { elements, order, ..written },

@@ -192,7 +192,7 @@ fn section(group: &Group, items: &[(ItemId, &Item)], rows: &mut Rows<'_>) -> Sec
         return Section::plain(vec![Row { name: item::entry_name(item, group), ..row }]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
-    facts.extend(PLAIN.group_origins(group));
+    facts.extend(PLAIN.origins(&group.origins));
     facts.extend(PLAIN.manual_entry(rows.known.manual, "", group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| number::object(index, sub));

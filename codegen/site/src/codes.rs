@@ -81,7 +81,7 @@ fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
         facts.extend(row.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
         facts.extend(PLAIN.defined_by(row.stated_by.as_deref(), row.documentation.as_deref()));
-        let number = code::text(row);
+        let number = row.printed_code();
         Code {
             position,
             anchor: names.anchor(&format!("{}-{number}", table.name)),

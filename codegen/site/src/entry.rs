@@ -222,18 +222,16 @@ impl Rows<'_> {
             facts.extend(scale.map(|scale| sentence(&capital(&scale))));
             facts.extend(PLAIN.notes(quantity));
         }
-        facts.extend(PLAIN.origins(item));
+        facts.extend(PLAIN.origins(&item.origins));
         if let Some(behavior) = &item.behavior {
             facts.extend(PLAIN.behavior(behavior));
         }
         facts.extend(PLAIN.variants(item, self.known.manual));
         facts.extend(item.availability.as_ref().map(|availability| PLAIN.availability(availability)));
         facts.extend(PLAIN.manual_entry(self.known.manual, row_of(item), item.documentation.as_deref(), &item.names));
-        let configured = item.configured.as_ref().and_then(|configured| configured.value.as_ref());
-        facts.extend(
-            configured
-                .map(|value| format!("Configured to {}.", PLAIN.of_item(item, value, &|value| PLAIN.value(value)))),
-        );
+        let configured = item.configured_value();
+        let configured = configured.map(|value| PLAIN.of_item(item, value, &|value| PLAIN.value(value)));
+        facts.extend(configured.map(|value| format!("Configured to {value}.")));
         facts.retain(|fact| !fact.is_empty());
         facts
     }

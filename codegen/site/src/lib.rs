@@ -158,10 +158,8 @@ impl Site {
     /// Adds the catalog of a compilation and returns its pages, including its diagnostics. Returns no pages if the
     /// compilation has errors.
     pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
-        compilation
-            .usable()
-            .map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation)))
-            .unwrap_or_default()
+        let pages = compilation.usable().map(|catalog| self.folder(name, catalog, ShownDiagnostics::of(compilation)));
+        pages.unwrap_or_default()
     }
 
     fn folder(&mut self, name: &str, catalog: &Catalog, diagnostics: ShownDiagnostics) -> Vec<Page> {

@@ -115,11 +115,8 @@ impl Modules {
 /// Returns all modules of a catalog, followed by all submodules.
 fn models(catalog: &Catalog, diagnostics: &ShownDiagnostics) -> Vec<ModuleModel> {
     let mut names = Names::default();
-    let anchors: Vec<String> = catalog
-        .submodules
-        .iter()
-        .map(|submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident)))
-        .collect();
+    let anchor = |submodule: &Submodule| names.anchor(&format!("submodule-{:08X}", submodule.ident));
+    let anchors: Vec<String> = catalog.submodules.iter().map(anchor).collect();
     let mut all: Vec<ModuleModel> = Vec::new();
     let (calls, records) = (rust::usage_of_modules(catalog), rust::usage_of_records(catalog));
     for (id, each) in (0..).map(ModuleId).zip(&catalog.modules) {

@@ -7,8 +7,9 @@ use super::words::{self, PLAIN};
 use lexibus_codegen::facts::physical::Physical;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::facts::words::{capital, sentence};
-use lexibus_codegen::ir::Manual;
-use lexibus_codegen::ir::{Completion, Device, Framing, Message, MessageField, MessageValue, TypeDef};
+use lexibus_codegen::ir::{
+    Completion, Device, Framing, Manual, Message, MessageExample, MessageField, MessageValue, TypeDef,
+};
 use lexibus_codegen::number::{bytes, hex8};
 
 /// The command protocol of a device, as a page shows it.
@@ -104,12 +105,8 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
         let states: Vec<&str> = message.accepted_in.iter().map(|state| state.as_str()).collect();
         facts.push(format!("Accepted in the states: {}.", states.join(", ")));
     }
-    facts.extend(
-        message
-            .accepted_when
-            .iter()
-            .map(|accepted_when| format!("Accepted only while {}.", PLAIN.holds(accepted_when))),
-    );
+    let conditions = message.accepted_when.iter().map(|condition| PLAIN.holds(condition));
+    facts.extend(conditions.map(|condition| format!("Accepted only while {condition}.")));
     facts.extend(message.side_effects.iter().map(|effect| sentence(effect)));
     facts.extend(message.after.as_ref().map(|other| format!("Has this meaning after {other}.")));
     facts.extend(message.by_default.then(|| "This meaning also applies after power-on.".to_owned()));
@@ -130,6 +127,11 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
     let request = std::mem::take(&mut parts.all);
     parts.names = Names::within(&format!("{anchor}.reply"));
     parts.fields(&message.reply, 0);
+    let example = |example: &MessageExample| Example {
+        request: bytes(&example.request),
+        reply: bytes(&example.reply),
+        facts: PLAIN.description(example.documentation.as_deref()).join(" "),
+    };
     MessageModel {
         anchor,
         name: message.name.to_string(),
@@ -138,15 +140,7 @@ fn message(message: &Message, device: &Device, manual: &Manual, names: &mut Name
         doubts: entry::doubts(&parts.doubts, "", manual),
         request,
         reply: parts.all,
-        examples: message
-            .examples
-            .iter()
-            .map(|example| Example {
-                request: bytes(&example.request),
-                reply: bytes(&example.reply),
-                facts: PLAIN.description(example.documentation.as_deref()).join(" "),
-            })
-            .collect(),
+        examples: message.examples.iter().map(example).collect(),
     }
 }
 
@@ -206,11 +200,8 @@ impl Parts<'_> {
         let basic = types::basic(self.types, item.ty);
         let (bits, labels) = bits::of_type(self.types, item.ty, &self.names.anchor(&item.name));
         let mut facts = vec![format!("{}.", types::name(self.types, item.ty))];
-        facts.extend(
-            PLAIN
-                .limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref())
-                .map(|limits| format!("{limits}.")),
-        );
+        let limits = PLAIN.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref());
+        facts.extend(limits.map(|limits| format!("{limits}.")));
         if let Some(quantity) = &item.quantity {
             facts.extend(PLAIN.unit(quantity).map(|unit| sentence(&capital(&unit))));
             facts.extend(PLAIN.notes(quantity));

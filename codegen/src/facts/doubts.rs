@@ -11,10 +11,8 @@ pub fn of_device<'d>(catalog: &'d Catalog, device: &'d Device) -> Vec<(&'d str, 
     let of_modules = device.accepted_modules(&catalog.modules).flat_map(|module| &module.types);
     let of_submodules = catalog.types.iter().filter(|_| device.profinet.is_some());
     let types = device.types.iter().chain(of_modules).chain(of_submodules);
-    let lists = device
-        .variants
-        .iter()
-        .map(|model| (&model.name, &model.doubts))
+    let models = device.variants.iter().map(|model| (&model.name, &model.doubts));
+    let lists = models
         .chain(types.map(|definition| (&definition.name, &definition.doubts)))
         .chain(device.code_tables.iter().map(|table| (&table.name, &table.doubts)))
         .chain(device.machines.iter().map(|machine| (&machine.name, &machine.doubts)))

@@ -72,7 +72,7 @@ fn signed(bytes: &[u8], bits: u8) -> i128 {
 /// Returns whether a value fits a basic type. A formula fits only if its result fits for each node-ID.
 pub fn fits(value: &Value, ty: Type) -> bool {
     /// Range of node-IDs.
-    const NODES: (i128, i128) = (1, 127);
+    const NODES: [i128; 2] = [1, 127];
     let is_in_range = |number: &i128| ty.integer_range().is_some_and(|(low, high)| (low..=high).contains(number));
     match (value, ty) {
         (Value::Bool(_), Type::Boolean) => true,
@@ -80,7 +80,7 @@ pub fn fits(value: &Value, ty: Type) -> bool {
         (Value::Int(_) | Value::Real(_), Type::Real32) => value.as_real().is_some_and(|real| (real as f32).is_finite()),
         (Value::Int(number), _) => is_in_range(number),
         (Value::NodeId(offset), _) => {
-            [NODES.0, NODES.1].iter().all(|node| offset.checked_add(*node).is_some_and(|sum| is_in_range(&sum)))
+            NODES.iter().all(|node| offset.checked_add(*node).is_some_and(|sum| is_in_range(&sum)))
         }
         (Value::Text(_), Type::VisibleString(_) | Type::UnicodeString(_)) => true,
         (Value::Bytes(_), Type::OctetString(_) | Type::Domain | Type::Opaque(_)) => true,

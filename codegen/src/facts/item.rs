@@ -89,7 +89,7 @@ pub fn range(item: &Item, limits: &Limits, types: &[TypeDef], shown: usize) -> S
     let raw = |value: &Value| raw(item, value, basic);
     match limits.allowed.is_empty() {
         true => PLAIN.range(limits, physical.as_ref(), &raw),
-        false => PLAIN.first_allowed(limits, physical.as_ref(), &raw, shown),
+        false => PLAIN.allowed(limits, physical.as_ref(), &raw, shown),
     }
 }
 

@@ -368,7 +368,8 @@ impl Words<'_> {
     /// `None` if the item has no limits.
     pub fn limits(&self, limits: &Limits, physical: Option<&Physical<'_>>) -> Option<String> {
         if !limits.allowed.is_empty() {
-            return Some(format!("one of {}", self.allowed(limits, physical, &|value| self.value(value))));
+            let allowed = self.allowed(limits, physical, &|value| self.value(value), ALLOWED_SHOWN);
+            return Some(format!("one of {allowed}"));
         }
         let text = match (physical, &limits.low, &limits.high) {
             (_, None, None) => return None,
@@ -391,13 +392,8 @@ impl Words<'_> {
         }
     }
 
-    /// Returns the allowed values and ranges: `1, 3 to 7`. A list of more than [`ALLOWED_SHOWN`] values is shortened.
-    pub fn allowed(&self, limits: &Limits, physical: Option<&Physical<'_>>, raw: &dyn Fn(&Value) -> String) -> String {
-        self.first_allowed(limits, physical, raw, ALLOWED_SHOWN)
-    }
-
     /// Returns the first `shown` allowed values and ranges.
-    pub fn first_allowed(
+    pub fn allowed(
         &self,
         limits: &Limits,
         physical: Option<&Physical<'_>>,
@@ -512,11 +508,6 @@ impl Words<'_> {
         Some(self.origin_sentence("Definition", origin))
     }
 
-    /// Returns the origins of those facts of a group that do not come from its description.
-    pub fn group_origins(&self, group: &Group) -> Vec<String> {
-        self.sentences_about(&group.origins)
-    }
-
     /// Returns the origin of an object's object type, if the description does not state it.
     pub fn object_type_origin(&self, group: &Group) -> Option<String> {
         let origin = group.origins.get(Fact::ObjectType)?;
@@ -591,20 +582,16 @@ impl Words<'_> {
         notes
     }
 
-    /// Returns the origins of those facts of an item that do not come from its description: `Unit from CiA 402,
-    /// 17.3.7.` Assumed access rights and reserved entries are left out, and so are the bits, values and descriptions
-    /// of a standard. Other methods return sentences about them.
-    pub fn origins(&self, item: &Item) -> Vec<String> {
-        self.sentences_about(&item.origins)
-    }
-
     /// Returns the origins of those identity numbers that do not come from the header of the description: `Product code from object
     /// 0x1018.`
     pub fn identity_origins(&self, identity: &Identity) -> Vec<String> {
         self.sentences(identity.origins.iter().map(|(number, origin)| (number.name(), origin)))
     }
 
-    fn sentences_about(&self, origins: &FactOrigins) -> Vec<String> {
+    /// Returns the origins of those facts of an item or group that do not come from its description: `Unit from CiA 402,
+    /// 17.3.7.` Assumed access rights and reserved entries are left out, and so are the bits, values and descriptions
+    /// of a standard. Other methods return sentences about them.
+    pub fn origins(&self, origins: &FactOrigins) -> Vec<String> {
         let is_elsewhere = |fact: Fact, origin: &FactOrigin| match origin {
             FactOrigin::Stated | FactOrigin::Rule(Rule::UnstatedAccess | Rule::ReservedEntry) => true,
             FactOrigin::Standard(_) => matches!(fact, Fact::Meaning | Fact::Description),

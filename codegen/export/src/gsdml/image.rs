@@ -53,6 +53,7 @@ impl Maker<'_> {
 
     fn device(&mut self, source: &Device) -> Device {
         self.require(self.options.date(), "date");
+        let description = source.documentation.as_deref().map_or("", |documentation| &documentation.text);
         let mut device = Device {
             name: source.name.clone(),
             names: source.names.clone(),
@@ -63,14 +64,7 @@ impl Maker<'_> {
                 order_code: self.options.order_number().as_deref().unwrap_or(&source.identity.order_code).into(),
                 ..Identity::default()
             },
-            header: Header {
-                description: source
-                    .documentation
-                    .as_ref()
-                    .map_or("", |documentation| documentation.text.as_str())
-                    .into(),
-                ..Header::default()
-            },
+            header: Header { description: description.into(), ..Header::default() },
             ..Device::default()
         };
         device.profinet = Some(Box::new(self.settings()));

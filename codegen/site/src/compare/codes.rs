@@ -4,7 +4,6 @@ use super::change::Judgment;
 use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
 use super::conditions::only_on;
 use super::names::identifier;
-use lexibus_codegen::facts::code;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
 
 /// Compares code tables, which are paired by name.
@@ -29,7 +28,7 @@ fn rows() -> Elements<CodeRow> {
     Elements {
         name: |row: &CodeRow| row.name.to_string(),
         position: |row| row.code.to_string(),
-        ..Elements::titled(|row: &CodeRow| format!("code {} {}", code::text(row), row.name))
+        ..Elements::titled(|row: &CodeRow| format!("code {} {}", row.printed_code(), row.name))
     }
     .judged(Judgment::API, Judgment::API)
 }

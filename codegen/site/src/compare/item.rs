@@ -226,13 +226,9 @@ fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
 /// Compares scales. The scale determines the Rust type.
 fn scale(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     if old.scale != new.scale {
-        let text = |quantity: &Quantity| {
-            quantity
-                .scale
-                .as_ref()
-                .map(|scale| PLAIN.scale(scale, facts::physical::shown_unit(quantity)))
-                .unwrap_or_default()
-        };
+        let shown =
+            |quantity: &Quantity| Some(PLAIN.scale(quantity.scale.as_ref()?, facts::physical::shown_unit(quantity)));
+        let text = |quantity| shown(quantity).unwrap_or_default();
         comparison.values("scale", [&old.scale, &new.scale], [text(old), text(new)], Judgment::API_AND_BEHAVIOR);
     }
 }

@@ -7,7 +7,6 @@ use super::docs;
 use super::docs::WORDS;
 use super::options::RustOptions;
 use crate::collections::HashSet;
-use crate::facts::code;
 use crate::ir::{CodeRow, CodeTable, Manual};
 use crate::names::{self, Case, NameRequest};
 use crate::number::hex;
@@ -79,7 +78,7 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let complete = covered == i128::from(last) - i128::from(first) + 1;
     let row = |((_, row), name): (&(Span, &CodeRow), &String)| {
         let meaning = doc_table::meaning(&row.name, name, row.documentation.as_deref());
-        [docs::escape(&code::text(row)), format!("[`{name}`](Self::{name})"), meaning]
+        [docs::escape(&row.printed_code()), format!("[`{name}`](Self::{name})"), meaning]
     };
     let listed: Vec<[String; 3]> = rows.iter().zip(&names).take(doc_table::MAX_ROWS + 1).map(row).collect();
     let table = doc_table::table(["Code", "Name", "Meaning"], &listed);
@@ -153,7 +152,7 @@ pub(super) fn number(code: i64) -> String {
 }
 
 fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVariant {
-    let codes = docs::escape(&code::text(row));
+    let codes = docs::escape(&row.printed_code());
     let title = docs::escape(&row.name);
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
     let mut sentences = Vec::new();

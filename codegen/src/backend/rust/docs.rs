@@ -56,7 +56,7 @@ pub(super) fn item(
     if let Some(quantity) = &item.quantity {
         paragraphs.extend(WORDS.notes(quantity));
     }
-    paragraphs.extend(WORDS.origins(item));
+    paragraphs.extend(WORDS.origins(&item.origins));
     if let Some(behavior) = &item.behavior {
         paragraphs.push(words.behavior(behavior).join(" "));
     }
