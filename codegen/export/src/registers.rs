@@ -27,7 +27,7 @@ pub(super) fn objects(device: &Device, address: impl Fn(&Item) -> Option<(u16, u
 fn object(index: u16, chapter: &Group, items: &BTreeMap<u8, &Item>) -> Group {
     let single = items.get(&0).filter(|_| items.len() == 1);
     let mut group = Group::object(index, if single.is_some() { ObjectCode::Var } else { ObjectCode::Record });
-    group.name = single.map_or_else(|| name(chapter, items), |item| item.name.clone());
+    group.name = name(chapter, items);
     group.items = items.values().map(|item| (*item).clone()).collect();
     if let (None, Some(&highest)) = (items.get(&0), items.keys().next_back()) {
         group.items.insert(0, count(index, highest));

@@ -155,7 +155,7 @@ impl Xml {
     /// Writes an element unless `list` is empty. Calls `write` for each item of the list to write the child elements.
     pub(super) fn list<T>(
         &mut self,
-        name: &'static str,
+        name: impl Into<Cow<'static, str>>,
         list: impl IntoIterator<Item = T>,
         mut write: impl FnMut(&mut Self, T),
     ) {

@@ -1,10 +1,12 @@
 //! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted.
+//! The fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted. Objects without a type
+//! of their own list their fields in alphabetical order.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
+use serde_json::{json, Value};
 
 use lexibus_codegen::diagnostics::render::marked::{Mark, MarkedSource};
 use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
@@ -27,7 +29,7 @@ struct Run<'a> {
     tool: Tool<'a>,
     column_kind: &'static str,
     newline_sequences: [&'static str; 3],
-    results: Vec<Outcome<'a>>,
+    results: Vec<Outcome>,
 }
 
 #[derive(Serialize)]
@@ -47,91 +49,75 @@ struct Driver<'a> {
 struct Rule {
     id: &'static str,
     name: String,
-    short_description: Message<'static>,
-    full_description: Message<'static>,
-    help: Message<'static>,
-    default_configuration: Configuration,
-}
-
-#[derive(Serialize)]
-struct Configuration {
-    enabled: bool,
-    level: &'static str,
-}
-
-#[derive(Serialize)]
-struct Message<'a> {
-    text: std::borrow::Cow<'a, str>,
+    short_description: Value,
+    full_description: Value,
+    help: Value,
+    default_configuration: Value,
 }
 
 /// A `result` object of SARIF.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Outcome<'a> {
+struct Outcome {
     rule_id: &'static str,
     rule_index: usize,
     level: &'static str,
-    message: Message<'a>,
+    message: Value,
     #[serde(skip_serializing_if = "Option::is_none")]
     occurrence_count: Option<usize>,
-    locations: Vec<Location<'a>>,
+    locations: Vec<Location>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    related_locations: Vec<Location<'a>>,
+    related_locations: Vec<Location>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixes: Vec<Fix<'a>>,
+    fixes: Vec<Fix>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Location<'a> {
-    physical_location: PhysicalLocation<'a>,
+struct Location {
+    physical_location: PhysicalLocation,
     #[serde(skip_serializing_if = "Option::is_none")]
-    message: Option<Message<'a>>,
+    message: Option<Value>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct PhysicalLocation<'a> {
-    artifact_location: ArtifactLocation,
+struct PhysicalLocation {
+    artifact_location: Value,
     #[serde(skip_serializing_if = "Option::is_none")]
-    region: Option<Region<'a>>,
-}
-
-#[derive(Serialize)]
-struct ArtifactLocation {
-    uri: String,
+    region: Option<Region>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Region<'a> {
+struct Region {
     start_line: u32,
     start_column: u32,
     end_line: u32,
     end_column: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
-    snippet: Option<Message<'a>>,
+    snippet: Option<Value>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Fix<'a> {
-    description: Message<'a>,
-    artifact_changes: [ArtifactChange<'a>; 1],
+struct Fix {
+    description: Value,
+    artifact_changes: [ArtifactChange; 1],
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct ArtifactChange<'a> {
-    artifact_location: ArtifactLocation,
-    replacements: [Replacement<'a>; 1],
+struct ArtifactChange {
+    artifact_location: Value,
+    replacements: [Replacement; 1],
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Replacement<'a> {
-    deleted_region: Region<'a>,
-    inserted_content: Message<'a>,
+struct Replacement {
+    deleted_region: Region,
+    inserted_content: Value,
 }
 
 /// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
@@ -170,18 +156,18 @@ fn rule(code: &'static Code) -> Rule {
         short_description: message(code.summary),
         full_description: message(code.explanation),
         help: message(code.explanation),
-        default_configuration: Configuration {
-            enabled: code.default != Level::Allow,
-            level: if code.default == Level::Deny { "error" } else { "warning" },
-        },
+        default_configuration: json!({
+            "enabled": code.default != Level::Allow,
+            "level": if code.default == Level::Deny { "error" } else { "warning" },
+        }),
     }
 }
 
-fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Outcome<'a> {
+fn outcome(diagnostic: &Diagnostic, sources: &[Source], rule_index: usize) -> Outcome {
     let place = MarkedSource::of(diagnostic.span, sources);
     let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).map(message);
     let fixes: Vec<Fix> = place.and_then(|place| fix(diagnostic, place)).into_iter().collect();
-    let related = |note: &'a Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
+    let related = |note: &Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
     Outcome {
         rule_id: diagnostic.code.id,
         rule_index,
@@ -189,7 +175,7 @@ fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: us
             Severity::Error => "error",
             Severity::Warning => "warning",
         },
-        message: Message { text: full_message(diagnostic, sources, fixes.is_empty()).into() },
+        message: message(&full_message(diagnostic, sources, fixes.is_empty())),
         occurrence_count: Some(diagnostic.more).filter(|&more| more > 0),
         locations: place.map(|place| location(place, label)).into_iter().collect(),
         related_locations: diagnostic.notes.iter().filter_map(related).collect(),
@@ -216,7 +202,7 @@ fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) ->
     text
 }
 
-fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a>> {
+fn fix(diagnostic: &Diagnostic, place: MarkedSource<'_>) -> Option<Fix> {
     let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
     let deleted_region = Region { snippet: None, ..region(place.source, mark) };
     Some(Fix {
@@ -228,12 +214,12 @@ fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a
     })
 }
 
-fn location<'a>(place: MarkedSource<'a>, message: Option<Message<'a>>) -> Location<'a> {
+fn location(place: MarkedSource<'_>, message: Option<Value>) -> Location {
     let region = place.mark.map(|mark| region(place.source, mark));
     Location { physical_location: PhysicalLocation { artifact_location: artifact(place.source), region }, message }
 }
 
-fn region(source: &Source, mark: Mark) -> Region<'_> {
+fn region(source: &Source, mark: Mark) -> Region {
     let marked = source.text().get(mark.start..mark.end).unwrap_or_default();
     Region {
         start_line: mark.from.line,
@@ -244,12 +230,12 @@ fn region(source: &Source, mark: Mark) -> Region<'_> {
     }
 }
 
-fn message(text: &str) -> Message<'_> {
-    Message { text: text.into() }
+fn message(text: &str) -> Value {
+    json!({ "text": text })
 }
 
-fn artifact(source: &Source) -> ArtifactLocation {
-    ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
+fn artifact(source: &Source) -> Value {
+    json!({ "uri": uri(source.name(), cfg!(windows)) })
 }
 
 /// Converts a file name to a URI. `windows` selects the path syntax of Windows.

@@ -10,13 +10,10 @@ use lexibus_codegen::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, V
 
 /// Names of the elements and attributes of a diagnosis list.
 struct List {
+    /// Name of the code table. The name of the table of extended codes begins with `extended_`.
     table: &'static str,
-    extended: &'static str,
-    list: &'static str,
-    /// Name of the list items, without the prefix `SystemDefined` or `Profile`.
-    item: &'static str,
-    extended_list: &'static str,
-    extended_item: &'static str,
+    /// Beginning of the names of the list and its items, after the prefix `SystemDefined`, `Profile` or `Ext`.
+    element: &'static str,
     code: &'static str,
     add_value: &'static str,
     has_state: bool,
@@ -24,11 +21,7 @@ struct List {
 
 static CHANNEL_DIAGNOSIS: List = List {
     table: "channel_diagnosis",
-    extended: "extended_channel_diagnosis",
-    list: "ChannelDiagList",
-    item: "ChannelDiagItem",
-    extended_list: "ExtChannelDiagList",
-    extended_item: "ExtChannelDiagItem",
+    element: "ChannelDiag",
     code: "ErrorType",
     add_value: "ExtChannelAddValue",
     has_state: true,
@@ -36,11 +29,7 @@ static CHANNEL_DIAGNOSIS: List = List {
 
 static PROCESS_ALARMS: List = List {
     table: "process_alarms",
-    extended: "extended_process_alarms",
-    list: "ChannelProcessAlarmList",
-    item: "ChannelProcessAlarmItem",
-    extended_list: "ExtChannelProcessAlarmList",
-    extended_item: "ExtChannelProcessAlarmItem",
+    element: "ChannelProcessAlarm",
     code: "Reason",
     add_value: "ProcessAlarmReasonAddValue",
     has_state: false,
@@ -51,8 +40,8 @@ const FIRST_OF_PROFILE: i128 = 0x9000;
 
 /// Returns whether the code table with this name contains a diagnosis list or the log book of a GSDML.
 pub(super) fn is_list(name: &str) -> bool {
-    let lists = [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS];
-    name == "log_book" || lists.iter().any(|list| name == list.table || name == list.extended)
+    let table = name.strip_prefix("extended_").unwrap_or(name);
+    name == "log_book" || [&CHANNEL_DIAGNOSIS, &PROCESS_ALARMS].iter().any(|list| table == list.table)
 }
 
 /// Writes all diagnosis lists and the log book.
@@ -63,27 +52,27 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog)
     log_book(xml, context, catalog);
 }
 
-fn rows<'c>(catalog: &'c Catalog, name: &'static str) -> Vec<&'c CodeRow> {
+fn rows<'c>(catalog: &'c Catalog, name: &str) -> Vec<&'c CodeRow> {
     catalog.code_tables.iter().filter(|table| table.name == name).flat_map(|table| &table.rows).collect()
 }
 
 fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: &'static List) {
-    let rows_of_list = rows(catalog, list.table);
+    let (rows_of_list, name_of_extended) = (rows(catalog, list.table), format!("extended_{}", list.table));
     if rows_of_list.is_empty() {
         return;
     }
     let mut extended: HashMap<i128, Vec<&CodeRow>> = HashMap::new();
-    for row in rows(catalog, list.extended) {
+    for row in rows(catalog, &name_of_extended) {
         extended.entry(number(row.cells.first())).or_default().push(row);
     }
-    xml.list(list.list, rows_of_list, |xml, row| {
+    xml.list(format!("{}List", list.element), rows_of_list, |xml, row| {
         let api = number(row.cells.get(1));
         let prefix = match (api, row.name.is_empty()) {
             (1.., _) => "Profile",
             (_, true) => "SystemDefined",
             (_, false) => "",
         };
-        xml.open(format!("{prefix}{}", list.item));
+        xml.open(format!("{prefix}{}Item", list.element));
         head(xml, list, row, row.cells.first(), api);
         if prefix != "SystemDefined" {
             texts(xml, context, row);
@@ -91,18 +80,15 @@ fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: 
         extended_codes(xml, context, list, extended.remove(&row.code).unwrap_or_default());
         xml.close();
     });
-    context.notes.add_many(
-        NoteKind::OtherPart,
-        extended.values().map(Vec::len).sum::<usize>(),
-        Subject::Named(list.extended),
-    );
+    let unused: usize = extended.values().map(Vec::len).sum();
+    context.notes.add_many(NoteKind::OtherPart, unused, Subject::Named(&name_of_extended));
 }
 
 fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List, rows: Vec<&CodeRow>) {
-    xml.list(list.extended_list, rows, |xml, row| {
+    xml.list(format!("Ext{}List", list.element), rows, |xml, row| {
         let api = number(row.cells.get(2));
         let prefix = if api > 0 || row.code >= FIRST_OF_PROFILE { "Profile" } else { "" };
-        xml.open(format!("{prefix}{}", list.extended_item));
+        xml.open(format!("{prefix}Ext{}Item", list.element));
         head(xml, list, row, row.cells.get(1), api);
         texts(xml, context, row);
         add_values(xml, list, row.cells.get(3));
