@@ -1,4 +1,6 @@
-//! Basic types of data types that a device defines.
+//! Basic types of data types that a device defines, and the digits of their values.
+
+use std::fmt::Write as _;
 
 use super::note::NoteKind;
 use lexibus_codegen::ir::{Shape, Type, TypeDef};
@@ -33,4 +35,12 @@ pub(super) fn without_length(ty: Type) -> Type {
         Type::UnicodeString(_) => Type::UnicodeString(None),
         other => other,
     }
+}
+
+/// Formats bytes as pairs of hexadecimal digits.
+pub(super) fn hex_digits(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
+        let _ = write!(text, "{byte:02X}");
+        text
+    })
 }

@@ -50,11 +50,12 @@ pub(super) fn overview(catalog: &Catalog, device: &Device, manual: &Manual) -> O
     identity.extend(settings(device));
     let title = [manual.title.as_str(), manual.edition.as_str()].into_iter().filter(|text| !text.is_empty());
     let title = title.collect::<Vec<_>>().join(", ");
-    identity.extend((!title.is_empty()).then_some(("Manual", title)));
+    identity.push(("Manual", title));
     if let Some(file) = catalog.files.first() {
         let name = lexibus_codegen::text::file_name(&file.name);
         identity.push(("Read from", format!("{name} ({}), SHA-256 {}", file.format.name(), file.sha256)));
     }
+    identity.retain(|(_, value)| !value.is_empty());
     let models = device.variants.iter().map(|variant| Model {
         name: variant.name.to_string(),
         facts: PLAIN.description(variant.documentation.as_deref()).join(" "),
@@ -87,7 +88,7 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
     let identity = &device.identity;
     let hex = |number: Option<u32>| number.map(hex32).unwrap_or_default();
     let origins = PLAIN.identity_origins(identity).join(" ");
-    let all = [
+    vec![
         ("Vendor", identity.vendor_name.to_string()),
         ("Product", identity.product_name.to_string()),
         ("Order code", identity.order_code.to_string()),
@@ -95,8 +96,7 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
         ("Product code", hex(identity.product_code)),
         ("Revision", hex(identity.revision_number)),
         ("Origin", origins),
-    ];
-    all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+    ]
 }
 
 /// Returns the names and values of the device's bus settings. One row lists all buses. A bus has a separate row only if it has
@@ -106,7 +106,7 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
     let rates: Vec<String> = rates.map(u16::to_string).collect();
     let tables: Vec<String> = device.modbus.iter().map(|table| modbus(table, device.modbus.len() > 1)).collect();
     let profiles: Vec<String> = device.profiles.iter().map(u32::to_string).collect();
-    let all = [
+    vec![
         ("Buses", device::buses(device)),
         ("Bit rates", if rates.is_empty() { String::new() } else { format!("{} kbit/s", rates.join(", ")) }),
         ("EtherCAT", device.ethercat.as_deref().map(ethercat).unwrap_or_default()),
@@ -114,8 +114,7 @@ fn settings(device: &Device) -> Vec<(&'static str, String)> {
         ("Modbus", tables.join(". ")),
         (addresses(device), device.node_ids.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()),
         ("Profiles", profiles.join(", ")),
-    ];
-    all.into_iter().filter(|(_, value)| !value.is_empty()).collect()
+    ]
 }
 
 /// Returns the term for a node address on the device's buses.

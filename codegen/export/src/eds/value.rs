@@ -1,11 +1,10 @@
 //! Formats values as the text of EDS entries. Reading a written text gives the same value again unless a note says that the value was
 //! changed.
 
-use std::fmt::Write as _;
-
 use super::note::NoteKind;
 use super::writer::quoted;
 use super::Reals;
+use crate::types::hex_digits;
 use lexibus_codegen::ir::{Type, Value};
 
 /// The role of a value in an entry.
@@ -113,12 +112,7 @@ fn string(value: &Value) -> Written {
 
 fn octets(value: &Value) -> Written {
     match value {
-        Value::Bytes(bytes) if !bytes.is_empty() => {
-            written(bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
-                let _ = write!(text, "{byte:02X}");
-                text
-            }))
-        }
+        Value::Bytes(bytes) if !bytes.is_empty() => written(hex_digits(bytes)),
         Value::Raw(text) => written(without_comment(text)),
         _ => left_out(),
     }

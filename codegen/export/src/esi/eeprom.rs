@@ -1,9 +1,9 @@
 //! Writes the EEPROM content and the registers of the EtherCAT slave controller (ESC).
 
 use super::text::hex;
-use super::value;
 use super::Context;
 use crate::note::{NoteKind, Notes, Subject};
+use crate::types::hex_digits;
 use crate::xml::Xml;
 use lexibus_codegen::ir::EtherCatSettings;
 
@@ -44,14 +44,14 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCa
     match (eeprom.data.is_empty(), size) {
         (true, Some(size)) => {
             xml.leaf("ByteSize", size);
-            xml.leaf("ConfigData", value::hex(&eeprom.config_data));
-            xml.text_leaf("BootStrap", &value::hex(&eeprom.boot_strap));
+            xml.leaf("ConfigData", hex_digits(&eeprom.config_data));
+            xml.text_leaf("BootStrap", &hex_digits(&eeprom.boot_strap));
             for (number, data) in &eeprom.categories {
-                xml.leaves("Category", &[("CatNo", &number), ("Data", &value::hex(data))]);
+                xml.leaves("Category", &[("CatNo", &number), ("Data", &hex_digits(data))]);
             }
         }
         _ => {
-            xml.leaf("Data", value::hex(&eeprom.data));
+            xml.leaf("Data", hex_digits(&eeprom.data));
             let others = usize::from(eeprom.byte_size.is_some())
                 + usize::from(!eeprom.config_data.is_empty())
                 + usize::from(!eeprom.boot_strap.is_empty())

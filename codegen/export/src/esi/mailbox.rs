@@ -2,9 +2,9 @@
 
 use super::pdo::slot_index;
 use super::text::hex;
-use super::value;
 use super::Context;
 use crate::note::{NoteKind, Notes, Subject};
+use crate::types::hex_digits;
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Coe, CompactString, InitCommand, Mailbox, Protocol};
 
@@ -102,7 +102,7 @@ fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, comman
     }
     xml.open("Data");
     xml.flag("AdaptAutomatically", command.adapt && protocol == "CoE", "true");
-    xml.content(value::hex(&command.data));
+    xml.content(hex_digits(&command.data));
     xml.close();
     xml.text_leaf("Comment", &command.comment);
     xml.close();

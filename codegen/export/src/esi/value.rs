@@ -1,9 +1,8 @@
 //! Writes default values and limits as numbers, texts or little-endian bytes. The default and limits of an item use the
 //! same form (ETG.2000, ObjectInfoType).
 
-use std::fmt::Write as _;
-
 use crate::note::NoteKind;
+use crate::types::hex_digits;
 use lexibus_codegen::facts::encoding;
 use lexibus_codegen::ir::{Item, Type, Value};
 
@@ -29,7 +28,7 @@ pub(super) fn elements(item: &Item, ty: Type) -> Written {
     let mut elements = Vec::new();
     for (name, value) in names.into_iter().zip(values) {
         let Some(value) = value else { continue };
-        match if as_numbers { number(value) } else { bytes(value, ty).map(|bytes| hex(&bytes)) } {
+        match if as_numbers { number(value) } else { bytes(value, ty).map(|bytes| hex_digits(&bytes)) } {
             Some(text) => elements.push((name, text)),
             None => notes.push(NoteKind::Value),
         }
@@ -56,14 +55,6 @@ fn bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
         (Value::Text(text), _) if text.is_empty() => Some(vec![0]),
         _ => encoding::bytes(value, ty),
     }
-}
-
-/// Formats bytes as pairs of hexadecimal digits.
-pub(super) fn hex(bytes: &[u8]) -> String {
-    bytes.iter().fold(String::with_capacity(2 * bytes.len()), |mut text, byte| {
-        let _ = write!(text, "{byte:02X}");
-        text
-    })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Writes device access points.
 
 use super::elements;
-use super::module::{find, graphics, slot_lists, subslots, Info};
+use super::module::{find, graphics, info, slot_lists, subslots};
 use super::values::ranges;
 use super::{record, submodule, Context};
 use crate::note::{NoteKind, Subject};
@@ -18,7 +18,10 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let attributes = settings.attributes.as_slice();
     xml.open("DeviceAccessPointItem");
     head(xml, device, settings);
-    info(xml, context, device, settings);
+    let [vendor, hardware, software] =
+        ["ModuleInfo/VendorName", "HardwareRelease", "SoftwareRelease"].map(|key| find(attributes, key));
+    let values = [vendor, &device.identity.order_code, hardware, software];
+    info(xml, context, (&device.name, &device.names), device.documentation.as_deref(), attributes, values);
     elements::CERTIFICATION.write(xml, attributes);
     subslots(xml, context, &settings.subslot_names);
     io_config_data(xml, settings);
@@ -56,21 +59,6 @@ fn head(xml: &mut Xml, device: &Device, settings: &ProfinetSettings) {
     slot_lists(xml, &settings.places, "Slots");
     xml.unless("MaxSupportedRecordSize", settings.max_record_size, RECORD_SIZE);
     elements::kept(xml, &settings.attributes);
-}
-
-fn info(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &ProfinetSettings) {
-    let attributes = settings.attributes.as_slice();
-    let info = Info {
-        name: &device.name,
-        names: &device.names,
-        documentation: device.documentation.as_deref(),
-        vendor: find(attributes, "ModuleInfo/VendorName"),
-        order: &device.identity.order_code,
-        hardware: find(attributes, "HardwareRelease"),
-        software: find(attributes, "SoftwareRelease"),
-        attributes,
-    };
-    info.write(xml, context);
 }
 
 fn io_config_data(xml: &mut Xml, settings: &ProfinetSettings) {

@@ -7,50 +7,38 @@ use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CompactString, Documentation, Module, SlotNumbers, SubslotName, Texts};
 
-/// The texts and attributes of a ModuleInfo element.
-pub(super) struct Info<'i> {
-    pub(super) name: &'i str,
-    pub(super) names: &'i Texts,
-    pub(super) documentation: Option<&'i Documentation>,
-    pub(super) vendor: &'i str,
-    pub(super) order: &'i str,
-    pub(super) hardware: &'i str,
-    pub(super) software: &'i str,
-    /// Attributes that the IR stores unchanged, including the category and the family.
-    pub(super) attributes: &'i Attributes,
-}
-
 /// Returns the value of an attribute that the IR stores unchanged. Returns an empty text if the attribute is missing.
 pub(super) fn find<'a>(attributes: &'a Attributes, key: &str) -> &'a str {
     attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
 }
 
-impl Info<'_> {
-    /// Writes the ModuleInfo element.
-    pub(super) fn write(&self, xml: &mut Xml, context: &mut Context<'_>) {
-        xml.open("ModuleInfo");
-        for key in elements::OF_INFO {
-            xml.text_attribute(key, find(self.attributes, key));
-        }
-        context.texts.text(xml, "Name", self.name, self.names);
-        context.texts.documentation(xml, "InfoText", self.documentation);
-        // A source other than GSDML may contain no description, but the schema requires a text.
-        if self.documentation.is_none() && !context.is_gsdml {
-            context.texts.text(xml, "InfoText", self.name, self.names);
-            context.notes.add(NoteKind::MissingText, Subject::Named(self.name));
-        }
-        elements::FAMILY.write(xml, self.attributes);
-        let values = [
-            ("VendorName", self.vendor),
-            ("OrderNumber", self.order),
-            ("HardwareRelease", self.hardware),
-            ("SoftwareRelease", self.software),
-        ];
-        for (name, value) in values.into_iter().filter(|(_, value)| !value.is_empty()) {
-            xml.empty(name, &[("Value", &value)]);
-        }
-        xml.close();
+/// Writes the ModuleInfo element. `values` are the vendor name, order number, hardware release and software release. `attributes`
+/// are those that the IR stores unchanged, including the category and the family.
+pub(super) fn info(
+    xml: &mut Xml,
+    context: &mut Context<'_>,
+    (name, names): (&str, &Texts),
+    documentation: Option<&Documentation>,
+    attributes: &Attributes,
+    values: [&str; 4],
+) {
+    xml.open("ModuleInfo");
+    for key in elements::OF_INFO {
+        xml.text_attribute(key, find(attributes, key));
     }
+    context.texts.text(xml, "Name", name, names);
+    context.texts.documentation(xml, "InfoText", documentation);
+    // The schema requires the element InfoText, so the name replaces a missing text.
+    if documentation.is_none() && !context.is_gsdml {
+        context.texts.text(xml, "InfoText", name, names);
+        context.notes.add(NoteKind::MissingText, Subject::Named(name));
+    }
+    elements::FAMILY.write(xml, attributes);
+    let elements = ["VendorName", "OrderNumber", "HardwareRelease", "SoftwareRelease"];
+    for (element, value) in elements.into_iter().zip(values).filter(|(_, value)| !value.is_empty()) {
+        xml.empty(element, &[("Value", &value)]);
+    }
+    xml.close();
 }
 
 /// Writes the attributes that list slots or subslots; `what` is `Slots` or `Subslots`.
@@ -89,17 +77,9 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.attribute("ModuleIdentNumber", format_args!("0x{:08X}", module.number));
     xml.text_attribute("PhysicalSubslots", &ranges(&module.subslots));
     elements::kept(xml, &module.attributes);
-    let info = Info {
-        name: &module.name,
-        names: &module.names,
-        documentation: module.documentation.as_deref(),
-        vendor: &module.identity.vendor_name,
-        order: &module.identity.order_code,
-        hardware: &module.revision,
-        software: &module.version,
-        attributes: &module.attributes,
-    };
-    info.write(xml, context);
+    let Module { name, names, documentation, identity, revision, version, attributes, .. } = module;
+    let values = [&identity.vendor_name, &identity.order_code, revision, version].map(|text| text.as_str());
+    info(xml, context, (name, names), documentation.as_deref(), attributes, values);
     subslots(xml, context, &module.subslot_names);
     submodule::built_in(xml, context, &module.submodules, None);
     submodule::useable(xml, context, &module.submodules);

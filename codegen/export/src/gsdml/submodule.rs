@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::elements::{self, Attributes};
-use super::module::{find, graphics_of, slot_lists, Info};
+use super::module::{self, find, graphics_of, slot_lists};
 use super::values::ranges;
 use super::{io_data, record, Context};
 use crate::note::{NoteKind, Subject};
@@ -176,17 +176,10 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     if has_nothing && context.is_gsdml {
         return;
     }
-    let info = Info {
-        name: &submodule.name,
-        names: &submodule.names,
-        documentation: submodule.documentation.as_deref(),
-        vendor: &submodule.identity.vendor_name,
-        order: &submodule.identity.order_code,
-        hardware: find(attributes, "HardwareRelease"),
-        software: find(attributes, "SoftwareRelease"),
-        attributes,
-    };
-    info.write(xml, context);
+    let Submodule { name, names, documentation, identity, .. } = submodule;
+    let [hardware, software] = ["HardwareRelease", "SoftwareRelease"].map(|key| find(attributes, key));
+    let values = [&identity.vendor_name, &identity.order_code, hardware, software];
+    module::info(xml, context, (name, names), documentation.as_deref(), attributes, values);
 }
 
 /// Writes the child elements of an interface that come after its records.
