@@ -10,7 +10,7 @@ use super::shared::{self, SharedDoubt};
 use super::split::{self, Fill};
 use super::words::{self, PLAIN};
 use lexibus_codegen::facts::{address, area, item};
-use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, Type, TypeDef};
+use lexibus_codegen::ir::{Group, GroupKind, Item, ItemId, TypeDef};
 use lexibus_codegen::number::{self, hex16};
 
 /// Maximum number of items on a page.
@@ -102,12 +102,8 @@ fn parts(groups: &[Group]) -> Vec<Part<'_>> {
 
 /// Distributes the sections of a part over pages.
 struct Filler<'p> {
-    types: &'p [TypeDef],
-    known: Known<'p>,
-    /// Anchors on the last page.
-    names: Names,
-    /// Types whose bits or values the last page already shows.
-    shown: Vec<(Type, String, String)>,
+    /// The rows of the last page, with their anchors and the types whose bits or values the page already shows.
+    rows: Rows<'p>,
     fill: Fill,
     size: Size,
     pages: Vec<Vec<Section>>,
@@ -115,8 +111,8 @@ struct Filler<'p> {
 
 impl<'p> Filler<'p> {
     fn new(types: &'p [TypeDef], known: Known<'p>, size: Size) -> Self {
-        let (names, shown, pages) = (Names::default(), Vec::new(), vec![Vec::new()]);
-        Filler { types, known, names, shown, fill: Fill::new(PAGE), size, pages }
+        let rows = Rows::new(types, known, Names::default());
+        Filler { rows, fill: Fill::new(PAGE), size, pages: vec![Vec::new()] }
     }
 
     /// Adds a section with these items. All items of a section are on the same page.
@@ -124,7 +120,7 @@ impl<'p> Filler<'p> {
         let (mut section, mut size) = self.section(group, items);
         if !self.fill.fits(items.len(), size) {
             let pages = std::mem::take(&mut self.pages);
-            *self = Filler { pages, ..Filler::new(self.types, self.known, self.size) };
+            *self = Filler { pages, ..Filler::new(self.rows.types, self.rows.known, self.size) };
             self.pages.push(Vec::new());
             // Create the section again for the new page, because the first row with a type on each page shows the bits
             // or values of this type.
@@ -138,17 +134,14 @@ impl<'p> Filler<'p> {
 
     /// Returns the section for items, and its size in bytes of HTML.
     fn section(&mut self, group: &Group, items: &[(ItemId, &Item)]) -> (Section, usize) {
-        let shown = std::mem::take(&mut self.shown);
-        let mut rows = Rows { types: self.types, known: self.known, names: &mut self.names, shown };
-        let section = section(group, items, &mut rows);
-        self.shown = rows.shown;
+        let section = section(group, items, &mut self.rows);
         let size = (self.size)(&section);
         (section, size)
     }
 }
 
 fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area> {
-    let known = filler.known;
+    let manual = filler.rows.known.manual;
     for &(position, group) in &part.groups {
         let items: Vec<(ItemId, &Item)> = group.items_at(position).collect();
         match group.kind {
@@ -162,17 +155,13 @@ fn pages(part: &Part<'_>, mut filler: Filler<'_>, files: &mut Names) -> Vec<Area
     let about = part.groups.first().map(|(_, group)| group).filter(|group| group.index().is_none());
     let page = |(at, sections): (usize, Vec<Section>)| {
         let title = split::title(&part.title, at, several);
-        let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
-        facts.extend(
-            about.and_then(|group| PLAIN.manual_entry(known.manual, "", group.documentation.as_deref(), &group.names)),
-        );
-        Area {
-            file: files.file(&part.title),
-            title,
-            facts,
-            doubts: about.map(|group| entry::doubts(&group.doubts, "", known.manual)).unwrap_or_default(),
-            sections,
+        let (file, mut facts, mut doubts) = (files.file(&part.title), Vec::new(), Vec::new());
+        if let Some(group) = about {
+            facts = PLAIN.description(group.documentation.as_deref());
+            facts.extend(PLAIN.manual_entry(manual, "", group.documentation.as_deref(), &group.names));
+            doubts = entry::doubts(&group.doubts, "", manual);
         }
+        Area { file, title, facts, doubts, sections }
     };
     areas.into_iter().enumerate().map(page).collect()
 }

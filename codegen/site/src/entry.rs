@@ -141,13 +141,17 @@ pub(super) struct Known<'d> {
 /// Data that the rows of a page share.
 pub(super) struct Rows<'p> {
     pub types: &'p [TypeDef],
-    pub names: &'p mut Names,
+    pub names: Names,
     pub known: Known<'p>,
     /// Types whose bits or values the page already shows, with the anchor and name of the row that shows them.
     pub shown: Vec<(Type, String, String)>,
 }
 
-impl Rows<'_> {
+impl<'p> Rows<'p> {
+    pub fn new(types: &'p [TypeDef], known: Known<'p>, names: Names) -> Self {
+        Rows { types, names, known, shown: Vec::new() }
+    }
+
     /// Creates the row of an item. `number` is the displayed address. If `by_name` is set and the item has a name, the
     /// anchor is the name; otherwise, it is `number`.
     pub fn row(&mut self, id: ItemId, item: &Item, number: String, by_name: bool) -> Row {

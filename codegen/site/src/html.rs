@@ -1,7 +1,5 @@
 //! Writes HTML pages with drawings and a search. Askama's HTML escaper escapes all texts.
 
-use std::fmt;
-
 use askama::Template;
 
 use super::area::{Area, Section};
@@ -109,37 +107,20 @@ struct DevicePart<'p> {
     root: &'static str,
 }
 
-/// Counts the bytes that are written.
-struct Counter(usize);
-
-impl fmt::Write for Counter {
-    fn write_str(&mut self, text: &str) -> fmt::Result {
-        self.0 += text.len();
-        Ok(())
-    }
-}
-
-fn size(template: &impl Template) -> usize {
-    let mut counter = Counter(0);
-    // Rendering cannot fail, see `written`.
-    let _ = template.render_into(&mut counter);
-    counter.0
-}
-
 /// Returns the size in bytes of a section. The links to related elements are not included, because they are added
 /// later.
 pub(super) fn size_of_section(section: &Section) -> usize {
-    size(&SectionPart { section })
+    written(&SectionPart { section }).len()
 }
 
 /// Returns the size of a module in bytes.
 pub(super) fn size_of_module(module: &ModuleModel) -> usize {
-    size(&ModulePart { module })
+    written(&ModulePart { module }).len()
 }
 
 /// Returns the size in bytes of a device's row in the list of all devices.
 pub(super) fn size_of_device(device: &Listed, columns: &[Column]) -> usize {
-    size(&DevicePart { device, columns, root: "." })
+    written(&DevicePart { device, columns, root: "." }).len()
 }
 
 #[derive(Template)]

@@ -157,12 +157,12 @@ struct Items<'m> {
 
 /// Returns the items of a module in sections. The anchors of the items begin with the module's anchor.
 fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, anchor: &str) -> Vec<(String, Section)> {
-    let (manual, none, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
+    let (manual, none) = (Manual::default(), Calls::default());
     let Items { types, calls, submodule, default_bytes, diagnostics } = items;
     let calls = calls.unwrap_or(&none);
     let record = OfRecord { submodule, length: 0, default_bytes: &[] };
     let known = Known { manual: &manual, modbus: &[], calls, diagnostics, record };
-    let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
+    let mut rows = Rows::new(types, known, Names::within(anchor));
     let section = |(position, group): (u32, &Group)| {
         rows.known.record = OfRecord {
             submodule,

@@ -115,9 +115,10 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
     let index = hex16(pdo.mapping_index);
     let mapping = if pdo.mapping_index == 0 { String::new() } else { format!(", mapped by {index}") };
     facts.push(format!("{}{mapping}.", bytes(pdo.bytes())));
+    let cob_id = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
     if let Some(communication) = &pdo.communication {
-        let cob_id = |id| cob_id::text(id, CobId::of_pdo(pdo.direction)).unwrap_or_else(|| words::PLAIN.value(id));
-        facts.extend(communication.cob_id.as_ref().map(|id| format!("COB-ID {}.", cob_id(id))));
+        let shown = |id| cob_id::text(id, CobId::of_pdo(pdo.direction)).unwrap_or_else(|| words::PLAIN.value(id));
+        facts.extend(cob_id.map(|id| format!("COB-ID {}.", shown(id))));
         facts.extend(
             communication.transmission_type.map(|transmission_type| format!("Transmission type {transmission_type}.")),
         );
@@ -131,7 +132,6 @@ fn pdo(pdo: &Pdo, types: &[TypeDef], about: About<'_>) -> Frame {
         let others: Vec<String> = pdo.excludes.iter().map(|index| hex16(*index)).collect();
         facts.push(format!("Cannot be assigned together with {}.", others.join(", ")));
     }
-    let cob_id = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
     Frame {
         cob_id_of_node: match cob_id {
             Some(Value::NodeId(offset)) => u32::try_from(*offset).ok(),

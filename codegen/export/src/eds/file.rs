@@ -41,8 +41,9 @@ pub fn export(catalog: &Catalog, device: &Device, options: impl Into<Options>) -
         writer.comment(&comment.value);
     }
     let mut seen = HashSet::new();
-    let objects: Vec<&Group> =
-        objects.into_iter().filter(|group| first_of_index(group, &mut seen, &mut writer)).collect();
+    let (objects, repeated): (Vec<&Group>, Vec<&Group>) =
+        objects.into_iter().partition(|group| seen.insert(group.index()));
+    repeated.into_iter().for_each(|group| writer.notes.add(NoteKind::Duplicate, Subject::object(group)));
     for section in extras.order() {
         header::write(&mut writer, &context, catalog, section, extras.of(section), &objects);
     }
@@ -74,13 +75,4 @@ fn objects<'a>(device: &'a Device, derived: &'a [Group]) -> Vec<&'a Group> {
     let mut objects: Vec<&Group> = described.chain(derived).collect();
     objects.sort_by_key(|group| group.index());
     objects
-}
-
-/// Returns whether `group` is the first object with its index. Adds a note if it is not.
-fn first_of_index(group: &Group, seen: &mut HashSet<Option<u16>>, writer: &mut Writer) -> bool {
-    let is_first = seen.insert(group.index());
-    if !is_first {
-        writer.notes.add(NoteKind::Duplicate, Subject::object(group));
-    }
-    is_first
 }

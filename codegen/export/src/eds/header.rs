@@ -177,9 +177,7 @@ fn dynamic_channel(writer: &mut Writer, channel: &DynamicChannel, number: i32) {
         Some(difference) => writer.numbered(key, format_args!("{}, {difference}", channel.offset)),
         None => writer.numbered(key, channel.offset),
     }
-    if channel.max_number.is_some() {
-        writer.notes.add(NoteKind::Setting, subject);
-    }
+    writer.notes.add_many(NoteKind::Setting, channel.max_number.is_some(), subject);
 }
 
 /// Returns the object list to which an object belongs. Objects below 0x1000 define data types and belong to no list.

@@ -72,9 +72,7 @@ impl<'a> Object<'a> {
 
     fn single(&self, writer: &mut Writer, item: &Item) {
         let subject = Subject::Object(self.index);
-        if item.name != self.group.name {
-            writer.notes.add(NoteKind::Name, subject);
-        }
+        writer.notes.add_many(NoteKind::Name, item.name != self.group.name, subject);
         self.value(writer, item, item.flags | self.group.flags);
         writer.extensions(self.section_extensions(), subject);
         writer.extensions(&item.extensions, subject);

@@ -123,9 +123,7 @@ impl Writer {
             if line.starts_with('[') {
                 section = line;
             }
-            if !line.is_ascii() {
-                self.notes.add(NoteKind::NotAscii, Subject::Named(section));
-            }
+            self.notes.add_many(NoteKind::NotAscii, !line.is_ascii(), Subject::Named(section));
             if line.len() > MAX_LINE && line.chars().count() > MAX_LINE {
                 self.notes.add(NoteKind::LongLine, Subject::Named(section));
             }

@@ -121,9 +121,7 @@ fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
         || !quantity.sentinels.is_empty()
         || quantity.step.is_some()
         || !quantity.units.is_empty();
-    if number.is_none() || has_more_facts {
-        context.notes.add(NoteKind::Quantity, Subject::item(item));
-    }
+    context.notes.add_many(NoteKind::Quantity, number.is_none() || has_more_facts, Subject::item(item));
 }
 
 fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single: Option<&Item>) {

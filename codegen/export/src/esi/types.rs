@@ -72,9 +72,7 @@ impl<'a> Types<'a> {
         };
         for def in defs {
             let name = types.unique(&def.name);
-            if name != def.name {
-                notes.add(NoteKind::Renamed, Subject::Named(&def.name));
-            }
+            notes.add_many(NoteKind::Renamed, name != def.name, Subject::Named(&def.name));
             if let Shape::Alias(ty) = def.shape {
                 if is_self_named(def, &name) {
                     types.basic.entry(ty).or_insert_with(|| name.clone());
@@ -137,9 +135,7 @@ impl<'a> Types<'a> {
             Type::Opaque(_) | Type::Named(_) => (Type::Domain, false),
             known => (known, true),
         };
-        if !is_known {
-            notes.add(NoteKind::UnknownType, subject);
-        }
+        notes.add_many(NoteKind::UnknownType, !is_known, subject);
         if let Some(name) = self.basic.get(&written) {
             return (name.clone(), bits);
         }

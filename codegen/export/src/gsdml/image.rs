@@ -199,9 +199,7 @@ impl Maker<'_> {
         };
         self.add(device, interface, INTERFACE);
         let ports = self.require(options.ports(), "ports");
-        if ports > MAX_PORTS {
-            self.notes.add(NoteKind::GivenFact, Subject::Named("ports"));
-        }
+        self.notes.add_many(NoteKind::GivenFact, ports > MAX_PORTS, Subject::Named("ports"));
         for number in 0..ports.min(MAX_PORTS) {
             let kind = self.require(options.mau_type(), "mau-type");
             let port = Submodule {
