@@ -30,10 +30,8 @@ pub(super) fn write(out: &mut Section<'_>, context: &Context<'_>) {
         ("ModificationDate", &header.modification_date),
         ("ModifiedBy", &header.modified_by),
     ];
-    for (key, text) in entries {
-        if !text.is_empty() {
-            out.open().plain(key, text, subject);
-        }
+    for (key, text) in entries.into_iter().filter(|(_, text)| !text.is_empty()) {
+        out.open().plain(key, text, subject);
     }
     if context.flavor == Flavor::Dcf && !header.last_eds.is_empty() {
         out.open().plain("LastEDS", &header.last_eds, subject);

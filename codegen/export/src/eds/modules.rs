@@ -37,10 +37,8 @@ fn info(writer: &mut Writer, module: &Module) {
         ("ProductRevision", &module.revision),
         ("OrderCode", &module.identity.order_code),
     ];
-    for (key, text) in others {
-        if !text.is_empty() {
-            writer.name(key, text, subject);
-        }
+    for (key, text) in others.into_iter().filter(|(_, text)| !text.is_empty()) {
+        writer.name(key, text, subject);
     }
     writer.extensions(&module.extensions, subject);
 }

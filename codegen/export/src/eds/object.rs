@@ -82,9 +82,7 @@ impl<'a> Object<'a> {
         let items = || self.group.items.iter().filter_map(|item| Some((item.object()?.1, item)));
         // SubNumber does not count sub-index 0xFF. Sub-index 0xFF describes the structure of the object.
         let described = items().filter(|(sub, _)| *sub != 0xFF).count();
-        if self.code != ObjectCode::Var || described > 0 {
-            writer.entry("SubNumber", described);
-        }
+        writer.optional("SubNumber", Some(described).filter(|count| self.code != ObjectCode::Var || *count > 0));
         flags(writer, self.group.flags);
         writer.extensions(self.section_extensions(), Subject::Object(self.index));
         let mut seen = [false; 256];
@@ -190,9 +188,7 @@ impl<'a> Object<'a> {
         writer.flag("PDOMapping", is_mappable);
         if let Some(srdo) = item.behavior.as_ref().and_then(|behavior| behavior.srdo) {
             writer.flag("SRDOMapping", true);
-            if let Some((index, sub)) = srdo.inverted {
-                writer.entry("InvertedSRAD", format_args!("0x{index:04X}{sub:02X}"));
-            }
+            writer.optional("InvertedSRAD", srdo.inverted.map(|(index, sub)| format!("0x{index:04X}{sub:02X}")));
         }
         if item.limits.are_swapped(ty) {
             writer.notes.add(NoteKind::SwappedLimits, subject);
@@ -256,9 +252,7 @@ pub(super) fn template(writer: &mut Writer, context: &Context<'_>, index: u16, i
 }
 
 fn flags(writer: &mut Writer, flags: u32) {
-    if flags != 0 {
-        writer.entry("ObjFlags", format_args!("0x{flags:X}"));
-    }
+    writer.optional("ObjFlags", (flags != 0).then(|| format!("0x{flags:X}")));
 }
 
 /// Returns the AccessType and PDOMapping that express `access` and `mappable`. If no combination fits exactly, returns the

@@ -102,11 +102,8 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     let ports = settings.physics.to_string();
     let ports = Some(ports).filter(|ports| context.is_esi || !ports.is_empty());
     let ports = context.missing.require(context.options.physics().or(ports), "physics");
-    if !is_known(&ports) {
-        context.notes.add(NoteKind::Spelling, Subject::Named("Physics"));
-        return xml.attribute("Physics", "");
-    }
-    xml.attribute("Physics", ports);
+    context.notes.add_many(NoteKind::Spelling, !is_known(&ports), Subject::Named("Physics"));
+    xml.attribute("Physics", if is_known(&ports) { &ports } else { "" });
 }
 
 fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {

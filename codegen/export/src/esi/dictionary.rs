@@ -182,18 +182,12 @@ pub(super) fn flags(
     xml.close();
     notes.add_many(NoteKind::Constant, facts.access == Access::Constant, subject);
     xml.optional_leaf("Category", category);
-    match (facts.mappable.rpdo, facts.mappable.tpdo) {
-        (true, true) => xml.leaf("PdoMapping", "RT"),
-        (true, false) => xml.leaf("PdoMapping", "R"),
-        (false, true) => xml.leaf("PdoMapping", "T"),
-        (false, false) => {}
-    }
-    if let Some(safety) = &facts.safety {
-        match matches!(safety.as_str(), "si" | "so" | "sio" | "sp") {
-            true => xml.leaf("SafetyMapping", safety),
-            false => notes.add(NoteKind::Spelling, subject),
-        }
-    }
+    let directions = [("R", facts.mappable.rpdo), ("T", facts.mappable.tpdo)];
+    let directions: String = directions.into_iter().filter(|(_, is_set)| *is_set).map(|(letter, _)| letter).collect();
+    xml.text_leaf("PdoMapping", &directions);
+    let known = facts.safety.as_deref().filter(|safety| matches!(*safety, "si" | "so" | "sio" | "sp"));
+    xml.optional_leaf("SafetyMapping", known);
+    notes.add_many(NoteKind::Spelling, facts.safety.is_some() && known.is_none(), subject);
 }
 
 fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {

@@ -82,9 +82,7 @@ fn init_command(xml: &mut Xml, notes: &mut Notes, protocol: &'static str, comman
         xml.flag("CompleteAccess", command.complete_access, "true");
         xml.flag("OverwrittenByModule", command.overwritten_by_module, "true");
     }
-    if protocol == "SoE" && command.sub_index != 0 {
-        xml.attribute("Chn", command.sub_index);
-    }
+    xml.optional("Chn", Some(command.sub_index).filter(|channel| protocol == "SoE" && *channel != 0));
     for transition in &command.transitions {
         match matches!(transition.as_str(), "IP" | "PS" | "SO" | "SP" | "OP" | "OS") {
             true => xml.leaf("Transition", transition),

@@ -154,12 +154,8 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     }
     others.into_iter().for_each(|(name, text)| xml.text_leaf(name, text));
     if let Some(facts) = facts {
-        if facts.backup {
-            xml.leaf("Backup", 1);
-        }
-        if facts.setting {
-            xml.leaf("Setting", 1);
-        }
+        xml.optional_leaf("Backup", facts.backup.then_some(1));
+        xml.optional_leaf("Setting", facts.setting.then_some(1));
     }
     xml.close();
 }

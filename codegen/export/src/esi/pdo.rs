@@ -61,9 +61,7 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     xml.open("Entry");
     xml.flag("Fixed", entry.fixed, "true");
     slot_index(xml, "Index", entry.index, entry.depends_on_slot, entry.depends_on_slot_group);
-    if entry.index != 0 || entry.sub_index != 0 {
-        xml.leaf("SubIndex", entry.sub_index);
-    }
+    xml.optional_leaf("SubIndex", Some(entry.sub_index).filter(|sub_index| entry.index != 0 || *sub_index != 0));
     xml.leaf("BitLen", entry.bits);
     if !entry.name.is_empty() || !entry.names.is_empty() {
         names(xml, "Name", &entry.name, &entry.names, notes, Subject::Entry(entry.index, entry.sub_index));

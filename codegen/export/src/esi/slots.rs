@@ -54,8 +54,8 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
         ("SlotIndexIncrement", rules.index_increment),
         ("SlotGroupIndexIncrement", rules.group_index_increment),
     ];
-    for (name, increment) in increments.into_iter().filter(|(_, increment)| *increment != 0) {
-        xml.attribute(name, hex(increment, 1));
+    for (name, increment) in increments {
+        xml.optional(name, (increment != 0).then(|| hex(increment, 1)));
     }
 }
 
@@ -72,9 +72,7 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
         ("SlotGroupIndexIncrement", slot.group_index_increment, rules.group_index_increment),
     ];
     for (name, value, usual) in increments {
-        if value != usual {
-            xml.attribute(name, hex(value, 1));
-        }
+        xml.optional(name, (value != usual).then(|| hex(value, 1)));
     }
     if let Some(Fit::Ident(ident)) = slot.default {
         xml.attribute("Default", hex(ident, 8));

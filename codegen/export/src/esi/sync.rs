@@ -40,12 +40,8 @@ fn sync_manager(xml: &mut Xml, manager: &SyncManager) {
     xml.optional("MinSize", manager.size_range.0);
     xml.optional("MaxSize", manager.size_range.1);
     xml.optional("DefaultSize", manager.default_size);
-    if manager.start_address != 0 {
-        xml.attribute("StartAddress", hex(manager.start_address, 4));
-    }
-    if manager.control != 0 {
-        xml.attribute("ControlByte", hex(manager.control, 2));
-    }
+    xml.optional("StartAddress", (manager.start_address != 0).then(|| hex(manager.start_address, 4)));
+    xml.optional("ControlByte", (manager.control != 0).then(|| hex(manager.control, 2)));
     xml.flag("Enable", manager.enable, "1");
     xml.flag("OpOnly", manager.op_only, "true");
     xml.flag("Virtual", manager.is_virtual, "true");

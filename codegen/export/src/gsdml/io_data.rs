@@ -45,9 +45,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
         context.notes.add_all(note, Subject::Named(&field.name));
         xml.open("DataItem");
         xml.attribute("DataType", name);
-        if needs_length {
-            xml.attribute("Length", field.bits / 8);
-        }
+        xml.optional("Length", needs_length.then_some(field.bits / 8));
         xml.attribute("TextId", context.texts.id(&field.name, &field.names));
         xml.close();
     }
@@ -61,9 +59,7 @@ fn composed(xml: &mut Xml, context: &mut Context<'_>, item: &IoItem, fields: &[P
         || item.data_type.contains("STRING");
     xml.open("DataItem");
     xml.attribute("DataType", &item.data_type);
-    if needs_length {
-        xml.attribute("Length", item.bits / 8);
-    }
+    xml.optional("Length", needs_length.then_some(item.bits / 8));
     xml.flag("UseAsBits", is_bits, "true");
     xml.flag("Subordinate", item.subordinate, "true");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));

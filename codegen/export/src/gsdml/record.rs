@@ -122,19 +122,13 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
         values.map(|(def, _)| &def.name).or_else(|| reference(item, |related| &related.unsuitable_values)),
     );
     types::position(xml, context, ty, offset, bits, &item.name);
-    if let Some(default) = item.default.as_ref().and_then(value) {
-        xml.attribute("DefaultValue", default);
-    }
+    xml.optional("DefaultValue", item.default.as_ref().and_then(value));
     if item.limits.are_swapped(ty) && item.limits.allowed.is_empty() {
         context.notes.add(NoteKind::SwappedLimits, subject);
     }
     xml.optional("AllowedValues", allowed(item));
-    if !matches!(item.access, Access::ReadWrite) {
-        xml.attribute("Changeable", "false");
-    }
-    if item.behavior.as_ref().is_some_and(|behavior| behavior.hidden) {
-        xml.attribute("Visible", "false");
-    }
+    xml.flag("Changeable", item.access != Access::ReadWrite, "false");
+    xml.flag("Visible", item.behavior.as_ref().is_some_and(|behavior| behavior.hidden), "false");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     xml.close();
     context.notes.add_many(NoteKind::Extension, item.extensions.len(), subject);

@@ -157,17 +157,13 @@ fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_inf
     xml.text_attribute("ID", &submodule.id);
     xml.attribute("SubmoduleIdentNumber", format_args!("0x{:08X}", submodule.ident));
     xml.unless("API", submodule.api, 0);
-    if !has_info {
-        xml.attribute("TextId", context.texts.id(&submodule.name, &submodule.names));
-    }
+    xml.optional("TextId", (!has_info).then(|| context.texts.id(&submodule.name, &submodule.names)));
 }
 
 /// Writes the subslot number of a port, or of an interface whose subslot is not the default.
 fn subslot(xml: &mut Xml, element: &str, numbers: &Numbers) {
     let first = numbers.0.first().map_or(INTERFACE, |(first, _)| *first);
-    if element == "PortSubmoduleItem" || first != INTERFACE {
-        xml.attribute("SubslotNumber", first);
-    }
+    xml.optional("SubslotNumber", Some(first).filter(|first| element == "PortSubmoduleItem" || *first != INTERFACE));
 }
 
 fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {

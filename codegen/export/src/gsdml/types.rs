@@ -61,15 +61,9 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
     context.notes.add_all(note, Subject::Named(subject));
     xml.attribute("DataType", &name);
     xml.attribute("ByteOffset", offset / 8);
-    if is_bits && !is_byte {
-        xml.attribute("BitOffset", offset % 8);
-    }
-    if name == "BitArea" {
-        xml.attribute("BitLength", bits);
-    }
-    if needs_length {
-        xml.attribute("Length", bits / 8);
-    }
+    xml.optional("BitOffset", (is_bits && !is_byte).then_some(offset % 8));
+    xml.optional("BitLength", (name == "BitArea").then_some(bits));
+    xml.optional("Length", needs_length.then_some(bits / 8));
 }
 
 /// Follows the chain of definitions from a type to the first type that GSDML defines, and returns its name. If GSDML
