@@ -13,7 +13,7 @@ pub(super) struct Definition {
 /// The definitions of a list, with an index by entries and the set of used names.
 #[derive(Debug, Default)]
 pub(super) struct Definitions {
-    list: Vec<Definition>,
+    pub list: Vec<Definition>,
     positions: HashMap<(bool, Vec<(String, String)>), usize>,
     names: HashSet<String>,
     /// Next suffix to try for each repeated name. Storing the suffix avoids counting from 2 again for each repetition.
@@ -32,10 +32,6 @@ impl Definitions {
         self.list.push(Definition { name, is_bits, entries: key.1.clone() });
         self.positions.insert(key, position);
         position
-    }
-
-    pub fn into_list(self) -> Vec<Definition> {
-        self.list
     }
 
     /// Returns an unused name in camel case, derived from `row`.
@@ -67,7 +63,7 @@ mod tests {
                 .map(|(row, value)| all.add(false, entries(value), row));
         assert_eq!(positions, [0, 0, 1, 2, 3]);
         assert_eq!(all.add(true, entries("off"), "?"), 4, "bits and values have different definitions");
-        let names: Vec<String> = all.into_list().into_iter().map(|definition| definition.name).collect();
+        let names: Vec<String> = all.list.into_iter().map(|definition| definition.name).collect();
         assert_eq!(names, ["OpMode", "OpMode2", "Opmode2", "OpMode3", "Values"]);
     }
 }

@@ -156,7 +156,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
     if let Some(header) = header.filter(|_| no_access) {
         reader.assume("access", header.span, "no column states access rights, so all registers are read-only");
     }
-    Rows { rows, definitions: reader.definitions.into_list(), no_access, from_one: style.addresses[0].is_x }
+    Rows { rows, definitions: reader.definitions.list, no_access, from_one: style.addresses[0].is_x }
 }
 
 /// Returns whether the second of two addresses is an object index. A second address that is greater than the printed

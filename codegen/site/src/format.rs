@@ -17,7 +17,13 @@ pub enum Format {
 impl Format {
     /// Returns the path of the first page of a site. This page lists the devices.
     pub fn first_page(self) -> String {
-        format!("{}{}", self.pages().front(), self.pages().ending())
+        let name = match self {
+            Format::Html => "index.html",
+            // Repository hosts such as GitHub display a file with this name for a folder. Only the top folder uses this name, because
+            // `mdBook` renames such files and breaks links to them.
+            Format::Markdown => "README.md",
+        };
+        name.to_owned()
     }
 
     pub(super) fn pages(self) -> &'static dyn Pages {

@@ -146,10 +146,6 @@ impl Pages for Html {
         ".html"
     }
 
-    fn front(&self) -> &'static str {
-        "index"
-    }
-
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
         let title = match content {
             Content::Changes(comparison) => Some(&comparison.title),

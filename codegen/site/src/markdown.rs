@@ -107,12 +107,6 @@ impl Pages for Markdown {
         ".md"
     }
 
-    /// Returns the name of the file that repository hosts such as GitHub display for a folder. Only the top folder uses this name,
-    /// because `mdBook` renames such files and breaks links to them.
-    fn front(&self) -> &'static str {
-        "README"
-    }
-
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
         let (title, mut links) = (frame.title.as_str(), links(frame, file));
         match content {
@@ -137,14 +131,6 @@ impl Pages for Markdown {
                 written(&ListPage { title, root: frame.root, devices, columns: &list::columns(devices), links: &links })
             }
         }
-    }
-
-    fn redirection(&self, _: &str, _: &str) -> Option<String> {
-        None
-    }
-
-    fn of_catalog(&self, _: &Index) -> Vec<Page> {
-        Vec::new()
     }
 
     fn of_site(&self, catalogs: &[ListedCatalog], further: &[(String, String)], _: Option<&Index>) -> Vec<Page> {

@@ -119,17 +119,19 @@ pub(super) enum Content<'p> {
 pub(super) trait Pages {
     /// Returns the extension of the page files, including the dot.
     fn ending(&self) -> &'static str;
-    /// Returns the file name of a site's first page, without extension.
-    fn front(&self) -> &'static str;
     /// Returns the text of the page `file`. `frame` contains its title and links.
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String;
 
     /// Returns the text of a page that redirects to `target`, the newest revision of a product. Returns `None` if the format has no
     /// such pages.
-    fn redirection(&self, title: &str, target: &str) -> Option<String>;
+    fn redirection(&self, _title: &str, _target: &str) -> Option<String> {
+        None
+    }
 
     /// Returns the files that the pages of one catalog share.
-    fn of_catalog(&self, index: &Index) -> Vec<Page>;
+    fn of_catalog(&self, _index: &Index) -> Vec<Page> {
+        Vec::new()
+    }
     /// Returns the files that all pages share. `further` are the paths and titles of comparisons and networks. `index` is the
     /// search index of all catalogs, if a page of the site needs this index.
     fn of_site(&self, catalogs: &[ListedCatalog], further: &[PageLink], index: Option<&Index>) -> Vec<Page>;

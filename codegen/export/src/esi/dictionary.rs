@@ -127,10 +127,9 @@ pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue,
 
 /// Writes the SubItem elements of a record type that the device declares.
 fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
-    let Shape::Record(fields) = &def.shape else { return };
     let unique = record::field_names(types, at);
     let mut facts = types.uses.get(&at).cloned().unwrap_or_default().into_iter();
-    for (field, name) in fields.iter().zip(unique) {
+    for (field, name) in types.fields(at).iter().zip(unique) {
         notes.add_many(NoteKind::Renamed, name != field.name, Subject::Named(&def.name));
         let (ty, _) = types.reference(field.ty, notes, Subject::Named(&def.name));
         let (sub_index, bits, offset) = (field.sub_index, field.bits, field.bit_offset);

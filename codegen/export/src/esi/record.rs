@@ -132,7 +132,7 @@ pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], 
 
 /// Returns a plan with the declared record type at `at` if the properties of its fields fit these items.
 fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]) -> Option<Plan> {
-    let entries = types.entries(at);
+    let entries = expansion(types, types.fields(at));
     // The type of an ARRAY object must consist of sub-index 0 and arrays. The type of a RECORD object must not.
     let is_array = match entries.split_first() {
         Some((first, rest)) => {
@@ -167,10 +167,7 @@ fn existing(types: &mut Types<'_>, at: u32, group: &Group, items: &[(u8, &Item)]
 
 /// Returns the field names of a record, made unique as the schema requires.
 pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
-    let Some(lexibus_codegen::ir::Shape::Record(fields)) = types.defs.get(at as usize).map(|def| &def.shape) else {
-        return Vec::new();
-    };
-    unique_names(fields.iter().map(|field| field.name.as_str()))
+    unique_names(types.fields(at).iter().map(|field| field.name.as_str()))
 }
 
 fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> {

@@ -8,10 +8,10 @@ use std::collections::HashMap;
 
 use compact_str::{format_compact, CompactString};
 
-use super::record::{self, Entry, FieldFacts};
+use super::record::{self, FieldFacts};
 use crate::note::{NoteKind, Notes, Subject};
 use lexibus_codegen::etg::type_name::{self, Basic, Spelling};
-use lexibus_codegen::ir::{Shape, Type, TypeDef, TypeId};
+use lexibus_codegen::ir::{Field, Shape, Type, TypeDef, TypeId};
 use lexibus_codegen::unique::Unique;
 
 /// The data types of a dictionary during its export.
@@ -105,12 +105,11 @@ impl<'a> Types<'a> {
         self.defs.get(at as usize)
     }
 
-    /// Returns the entries of an object whose type is the declared record at position `at`, or an empty list if the
-    /// declared type is not a record.
-    pub(super) fn entries(&self, at: u32) -> Vec<Entry> {
+    /// Returns the fields of the declared record at position `at`, or an empty list if the declared type is not a record.
+    pub(super) fn fields(&self, at: u32) -> &'a [Field] {
         match self.defs.get(at as usize).map(|def| &def.shape) {
-            Some(Shape::Record(fields)) => record::expansion(self, fields),
-            _ => Vec::new(),
+            Some(Shape::Record(fields)) => fields,
+            _ => &[],
         }
     }
 
@@ -122,10 +121,8 @@ impl<'a> Types<'a> {
             notes.add(NoteKind::UnknownLength, subject);
         }
         let bits = bits.unwrap_or(0);
-        if let Type::Named(TypeId(at)) = ty {
-            if (at as usize) < self.defs.len() {
-                return (self.name_of(at), bits);
-            }
+        if let (Type::Named(id), Some(_)) = (ty, self.def(ty)) {
+            return (self.name_of(id.0), bits);
         }
         if let Some(name) = self.basic.get(&ty) {
             return (name.clone(), bits);
@@ -148,16 +145,7 @@ impl<'a> Types<'a> {
     /// Returns the length of a type in bits if it is known.
     pub(super) fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
-            Type::Named(_) => {
-                let def = self.def(ty)?;
-                def.bits.or(match def.shape {
-                    Shape::Alias(base)
-                    | Shape::BitField { base, .. }
-                    | Shape::Enumeration { base, .. }
-                    | Shape::Scaled { base, .. } => base.bits(),
-                    Shape::Array { .. } | Shape::Record(_) => None,
-                })
-            }
+            Type::Named(_) => self.def(ty)?.bits.or_else(|| self.underlying(ty).bits()),
             Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
             Type::UnicodeString(length) => length?.checked_mul(16),
             basic => basic.bits(),

@@ -23,12 +23,8 @@ pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Compari
 fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
     compare_fields!(Message, old, new, comparison, {
         name,
-        request: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
-            frame("request", old, new, comparison);
-        },
-        reply: |old: &Vec<MessageField>, new: &Vec<MessageField>, comparison: &mut Comparison<'_>| {
-            frame("reply", old, new, comparison);
-        },
+        request: frame("request"),
+        reply: frame("reply"),
         completion: fact_as("completion", Judgment::BEHAVIOR, completion),
         reply_time: fact("time of the reply in ms", Judgment::BEHAVIOR),
         after: fact("after the message", Judgment::API),
@@ -63,14 +59,16 @@ fn completion(completion: &Completion) -> String {
     }
 }
 
-/// Compares the layout and the values of a frame.
-fn frame(name: &'static str, old: &[MessageField], new: &[MessageField], comparison: &mut Comparison<'_>) {
-    comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
+/// Returns a rule that compares the layout and the values of a frame.
+fn frame(name: &'static str) -> impl Fn(&Vec<MessageField>, &Vec<MessageField>, &mut Comparison<'_>) {
     let title = |value: &&MessageValue| value.item.name.to_string();
-    for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
-        // Added and removed values are part of the layout, which was compared above.
-        if let (Some(old), Some(new)) = (old, new) {
-            comparison.within(&format!("{name} {}", new.item.name), |comparison| value(old, new, comparison));
+    move |old, new, comparison| {
+        comparison.texts(name, layout(old, true), layout(new, true), frame_effects(old, new));
+        for (old, new) in super::pairing::pairs(&values(old), &values(new), title, |_| String::new()) {
+            // Added and removed values are part of the layout, which was compared above.
+            if let (Some(old), Some(new)) = (old, new) {
+                comparison.within(&format!("{name} {}", new.item.name), |comparison| value(old, new, comparison));
+            }
         }
     }
 }
