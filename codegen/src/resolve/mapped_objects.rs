@@ -7,7 +7,8 @@
 use std::collections::BTreeMap;
 
 use crate::ir::{
-    Access, Binding, Device, Direction, Fact, FactOrigins, Group, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Rule,
+    Access, Binding, Device, Direction, Fact, FactOrigins, Group, Item, Module, ObjectCode, Pdo, PdoEntry,
+    PdoEntryKind, Rule,
 };
 use crate::source::Origin;
 

@@ -5,6 +5,6 @@ mod doc;
 mod layout;
 mod writer;
 
-pub(super) use doc::{call, generic, list, seq, slice, Break, Data, Doc, Stop};
+pub(super) use doc::{call, generic, list, seq, slice, Break, Data, Doc, Piece, Stop};
 pub(super) use layout::MARGIN;
 pub(super) use writer::{line, open, Code};

@@ -69,6 +69,20 @@ impl Code {
         self.line(&[&end]);
     }
 
+    /// Writes a block that consists of one line, such as a function. The head does not include the brace.
+    pub fn block(&mut self, head: impl Piece, line: impl Piece) {
+        self.open(&[&head, &" {"]);
+        self.line(&[&line]);
+        self.close("}");
+    }
+
+    /// Writes the implementation of a trait that consists of one function, whose body is one line.
+    pub fn implementation(&mut self, of: impl Piece, ty: impl Piece, function: impl Piece, body: impl Piece) {
+        self.open(&[&"impl ", &of, &" for ", &ty, &" {"]);
+        self.block(function, body);
+        self.close("}");
+    }
+
     /// Writes a line that closes a block and opens the next one.
     pub fn reopen(&mut self, line: &str) {
         self.close(line);

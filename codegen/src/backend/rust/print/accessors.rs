@@ -36,9 +36,7 @@ pub(super) fn selected(model: &Model) -> &'static str {
 fn structure(code: &mut Code, model: &Model) {
     let name = &model.device_name;
     if !model.selects() {
-        open!(code, "pub struct ", name, "<C> {");
-        line!(code, "client: C,");
-        code.close("}");
+        code.block(seq!["pub struct ", name, "<C>"], "client: C,");
         return;
     }
     open!(code, "pub struct ", name, "<C, S = rt::message::Unselected> {");
@@ -61,27 +59,21 @@ fn methods(code: &mut Code, model: &mut Model) {
     open!(code, "impl<C", state, "> ", name, "<C", state, "> {");
     if !model.selects() {
         code.doc("Creates a driver that talks to the device through `client`.");
-        open!(code, "pub const fn new(client: C) -> Self {");
-        line!(code, "Self { client }");
-        code.close("}");
+        code.block("pub const fn new(client: C) -> Self", "Self { client }");
     }
     code.doc("Returns the client.");
-    open!(code, "pub fn client(&mut self) -> &mut C {");
-    line!(code, "&mut self.client");
-    code.close("}");
+    code.block("pub fn client(&mut self) -> &mut C", "&mut self.client");
     code.doc("Returns the client and drops the driver.");
-    open!(code, "pub fn into_client(self) -> C {");
-    line!(code, "self.client");
-    code.close("}");
+    code.block("pub fn into_client(self) -> C", "self.client");
     if let Some(axes) = &model.axes {
         code.doc(&format!(
             "Returns the driver for axis `number`{}. The first axis has the number 1. Objects that all axes share have the same address on every axis.",
             axes.models
         ));
-        let axis = generic!("rt::Axis", "&mut C");
-        open!(code, call!("pub fn axis", "&mut self", "number: u8"), " -> ", generic!(name, axis), " {");
-        line!(code, call!(seq![name, "::new"], call!("rt::Axis::new", "&mut self.client", "&AXES", "number")));
-        code.close("}");
+        let driver = generic!(name, generic!("rt::Axis", "&mut C"));
+        let axis = call!("rt::Axis::new", "&mut self.client", "&AXES", "number");
+        let function = seq![call!("pub fn axis", "&mut self", "number: u8"), " -> ", driver];
+        code.block(function, call!(seq![name, "::new"], axis));
     }
     for walk in &model.walks {
         self::walk(code, walk, false);
@@ -161,9 +153,7 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
         code.lines(&alias);
         let result = generic!(seq!["objects::", accessors], "'_", "C");
         open!(code, function, " -> ", result, " {");
-        open!(code, "objects::", accessors, " {");
-        line!(code, "client: &mut self.client,");
-        code.close("}");
+        code.block(seq!["objects::", accessors], "client: &mut self.client,");
         code.close("}");
         return;
     }
@@ -171,8 +161,6 @@ fn accessor(code: &mut Code, object: &ObjectModel) {
         code.docs(&item.method_docs);
         code.lines(&alias);
         let result = access("objects::", item.access, &item.arguments_at_top);
-        open!(code, function, " -> ", result, " {");
-        line!(code, item.at("objects", "&mut self.client"));
-        code.close("}");
+        code.block(seq![function, " -> ", result], item.at("objects", "&mut self.client"));
     }
 }

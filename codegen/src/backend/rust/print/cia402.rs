@@ -8,9 +8,8 @@ use crate::backend::rust::code::{call, generic, line, open, seq, Code, MARGIN};
 pub(super) fn method(code: &mut Code, device: &str, model: &Cia402Model) {
     code.docs(&model.docs);
     let result = generic!("rt::cia402::Drive", "'_", "C", seq![device, "<()>"]);
-    open!(code, call!(seq!["pub fn ", model.method], "&mut self"), " -> ", result, " {");
-    line!(code, call!("rt::cia402::Drive::new", "&mut self.client"));
-    code.close("}");
+    let function = seq![call!(seq!["pub fn ", model.method], "&mut self"), " -> ", result];
+    code.block(function, call!("rt::cia402::Drive::new", "&mut self.client"));
 }
 
 /// Writes the implementations of the traits for the type `device<()>`, which has no client.
@@ -38,7 +37,5 @@ fn function(code: &mut Code, function: &FunctionModel) {
         (true, false) => "impl rt::cia402::ReadInteger<B>",
         (false, _) => "impl rt::cia402::WriteInteger<B>",
     };
-    open!(code, "fn ", function.name, "() -> ", result, " {");
-    line!(code, function.path);
-    code.close("}");
+    code.block(seq!["fn ", function.name, "() -> ", result], &function.path);
 }

@@ -2,7 +2,7 @@
 
 use super::section;
 use super::types;
-use crate::backend::rust::code::{line, open, Code};
+use crate::backend::rust::code::{line, open, seq, Code, Doc};
 use crate::backend::rust::code_table::CodeTableModel;
 use crate::backend::rust::code_type::CodeTypeModel;
 use crate::backend::rust::model::Model;
@@ -35,17 +35,11 @@ fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
     code.doc(&format!("Code of the table {}.", table.link));
     code.docs(&ty.table);
     code.lines(&ty.derives);
-    open!(code, "pub enum ", ty.name, " {");
-    for variant in &ty.variants {
-        code.doc(&variant.docs);
-        match variant.code {
-            Some(_) => line!(code, variant.name, ","),
-            None => line!(code, variant.name, "(", ty.native, "),"),
-        }
-    }
-    code.doc("A code that is not in the table.");
-    line!(code, "Unknown(", ty.native, "),");
-    code.close("}");
+    let variants = ty.variants.iter().map(|variant| {
+        let range = variant.code.is_none().then(|| seq!["(", ty.native, ")"]);
+        (&variant.docs, seq![variant.name, range])
+    });
+    types::variants(code, &ty.name, variants, Some(("A code that is not in the table.", ty.native)));
     conversions(code, table, ty);
     if let Some(gate) = &ty.equality {
         let raw = |value: &str| format!("rt::codes::CodeTable::raw({value})");
@@ -56,29 +50,15 @@ fn ty(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
 fn conversions(code: &mut Code, table: &CodeTableModel, ty: &CodeTypeModel) {
     open!(code, "impl rt::codes::CodeTable for ", ty.name, " {");
     line!(code, "type Raw = ", ty.native, ";");
-    open!(code, "fn codes() -> &'static [rt::codes::Code] {");
-    line!(code, table.name);
-    code.close("}");
-    open!(code, "fn from_raw(code: ", ty.native, ") -> Self {");
-    open!(code, "match code {");
-    for (pattern, variant) in &ty.arms {
-        line!(code, pattern, " => Self::", variant, ",");
-    }
-    if !ty.complete {
-        line!(code, "_ => Self::Unknown(code),");
-    }
-    code.close("}");
-    code.close("}");
-    open!(code, "fn raw(self) -> ", ty.native, " {");
-    open!(code, "match self {");
-    for variant in &ty.variants {
-        match &variant.code {
-            Some(number) => line!(code, "Self::", variant.name, " => ", number, ","),
-            None => line!(code, "Self::", variant.name, "(code) => code,"),
-        }
-    }
-    line!(code, "Self::Unknown(code) => code,");
-    code.close("}");
-    code.close("}");
+    code.block("fn codes() -> &'static [rt::codes::Code]", &table.name);
+    let arms = ty.arms.iter().map(|(pattern, variant)| (pattern.as_str(), seq!["Self::", variant]));
+    let unknown = (!ty.complete).then(|| ("_", Doc::from("Self::Unknown(code)")));
+    types::matching(code, seq!["fn from_raw(code: ", ty.native, ") -> Self"], "code", arms.chain(unknown));
+    let numbers = ty.variants.iter().map(|variant| match &variant.code {
+        Some(number) => (seq!["Self::", variant.name], number.as_str()),
+        None => (seq!["Self::", variant.name, "(code)"], "code"),
+    });
+    let unknown = (Doc::from("Self::Unknown(code)"), "code");
+    types::matching(code, seq!["fn raw(self) -> ", ty.native], "self", numbers.chain([unknown]));
     code.close("}");
 }

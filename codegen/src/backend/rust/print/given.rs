@@ -69,7 +69,5 @@ pub(super) fn machine(code: &mut Code, given: Option<&GivenModel>) {
 fn conversion(code: &mut Code, function: &[String; 2], units: [&str; 2]) {
     let ([name, expression], [from, to]) = (function, units);
     code.doc(&format!("Converts a value from {from} to {to}."));
-    open!(code, call!(seq!["pub fn ", name], "&self", "value: f64"), " -> f64 {");
-    line!(code, expression);
-    code.close("}");
+    code.block(seq![call!(seq!["pub fn ", name], "&self", "value: f64"), " -> f64"], expression);
 }

@@ -69,9 +69,7 @@ fn unpack(code: &mut Code, image: &ImageModel) {
 
 fn view(code: &mut Code, image: &ImageModel) {
     code.doc(&format!("{} This view reads and writes the bytes in place.", image.title));
-    open!(code, "pub struct ", image.view_name(), "<B> {");
-    line!(code, "data: B,");
-    code.close("}");
+    code.block(seq!["pub struct ", image.view_name(), "<B>"], "data: B,");
     code.lines(image.view_allow());
     open!(code, "impl<B: AsRef<[u8]>> ", image.view_name(), "<B> {");
     code.docs_with_error("Creates a view of the process image at the start of `data`.", ERROR);

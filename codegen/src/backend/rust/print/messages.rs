@@ -64,11 +64,8 @@ fn constants(code: &mut Code, protocol: &ProtocolModel) {
     } else {
         line!(code, "pub struct Protocol;");
     }
-    open!(code, "impl rt::message::Station for Protocol {");
-    open!(code, "fn station(&self) -> u32 {");
-    line!(code, if protocol.has_station { "self.station" } else { "0" });
-    code.close("}");
-    code.close("}");
+    let station = if protocol.has_station { "self.station" } else { "0" };
+    code.implementation("rt::message::Station", "Protocol", "fn station(&self) -> u32", station);
 }
 
 /// Writes the first lines of a function. Each parameter has its own line.
@@ -220,9 +217,7 @@ fn reply(code: &mut Code, data: &DataModel) {
     if let Some(is_complete) = &data.is_complete {
         open!(code, "impl", lifetime, " ", name, lifetime, " {");
         code.doc("Returns whether the command is completed.");
-        open!(code, "pub const fn is_complete(&self) -> bool {");
-        line!(code, is_complete);
-        code.close("}");
+        code.block("pub const fn is_complete(&self) -> bool", is_complete);
         code.close("}");
     }
     open!(code, "impl<'a> rt::message::Reply<'a> for ", name, lifetime, " {");
@@ -269,9 +264,8 @@ fn requests(code: &mut Code, protocol: &ProtocolModel) {
     line!(code, "let from = rt::message::Reader::new(data);");
     for (name, _) in &protocol.requests {
         line!(code, "let parsed = rt::message::Request::parse(&mut from.clone());");
-        open!(code, "if let Some((station, request)) = parsed {");
-        line!(code, "return Some((station, Self::", name, "(request)));");
-        code.close("}");
+        let found = seq!["return Some((station, Self::", name, "(request)));"];
+        code.block("if let Some((station, request)) = parsed", found);
     }
     line!(code, "None");
     code.close("}");
@@ -349,9 +343,8 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
         false => ("Creates a driver for the device.", "exchange: X", "messages::Protocol"),
     };
     code.doc(&format!("{about} The driver sends and receives messages through `exchange`."));
-    open!(code, "pub const fn on(", parameters, ") -> Self {");
-    line!(code, "Self::new(", call!("rt::Parameters::new", "exchange", protocol_value), ")");
-    code.close("}");
+    let driver = seq!["Self::new(", call!("rt::Parameters::new", "exchange", protocol_value), ")"];
+    code.block(seq!["pub const fn on(", parameters, ") -> Self"], driver);
     code.close("}");
     let calls = |is_included: &dyn Fn(&&CallModel) -> bool, code: &mut Code| {
         protocol.calls.iter().filter(is_included).for_each(|call| method(code, call));

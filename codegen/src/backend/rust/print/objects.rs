@@ -66,9 +66,7 @@ fn locations(code: &mut Code, model: &Model) {
         code.close("}");
     }
     for (name, parameters, ty, body) in &model.makers {
-        open!(code, list(&format!("const fn {name}("), parameters, ")"), " -> ", ty, " {");
-        line!(code, body);
-        code.close("}");
+        code.block(seq![list(&format!("const fn {name}("), parameters, ")"), " -> ", ty], body);
     }
 }
 
@@ -132,9 +130,8 @@ fn accessors(code: &mut Code, model: &Model, object: &ObjectModel, name: &str) {
     for item in &object.items {
         code.docs(&item.method_docs);
         let result = access("", item.access, &item.arguments);
-        open!(code, call!(seq!["pub fn ", item.method], "&mut self"), " -> ", result, " {");
-        line!(code, item.at(&object.name, "self.client"));
-        code.close("}");
+        let function = call!(seq!["pub fn ", item.method], "&mut self");
+        code.block(seq![function, " -> ", result], item.at(&object.name, "self.client"));
     }
     code.close("}");
 }

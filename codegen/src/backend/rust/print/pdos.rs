@@ -1,7 +1,7 @@
 //! Prints PDO structs.
 
 use super::section;
-use crate::backend::rust::code::{line, open, Code};
+use crate::backend::rust::code::{line, open, seq, Code};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::pdo::PdoModel;
 use crate::backend::rust::reexport::Section;
@@ -94,9 +94,8 @@ fn configuration(code: &mut Code, pdo: &PdoModel) {
     let count = pdo.configuration.len();
     if pdo.has_identifier {
         code.doc("Returns the writes that configure the PDO with its default COB-ID and enable it.");
-        open!(code, "pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; ", count, "] {");
-        line!(code, "Self::configuration_as(Self::COB_ID.resolve(node_id))");
-        code.close("}");
+        let function = seq!["pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; ", count, "]"];
+        code.block(function, "Self::configuration_as(Self::COB_ID.resolve(node_id))");
     }
     code.doc(
         "Returns the writes that configure the PDO with `cob_id`. In order, they disable the PDO, clear the mapping,",

@@ -1,8 +1,8 @@
 //! Prints enumerations, bit fields and state machines.
 
 use super::{bit_field, section};
-use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc};
-use crate::backend::rust::enumeration::{EnumerationModel, VariantModel};
+use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Data, Doc, Piece};
+use crate::backend::rust::enumeration::EnumerationModel;
 use crate::backend::rust::literal;
 use crate::backend::rust::machine::{MachineModel, PatternModel, PatternsModel, StepModel};
 use crate::backend::rust::model::Model;
@@ -26,41 +26,22 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     let (name, native) = (&enumeration.name, enumeration.native);
     code.docs(&enumeration.docs);
     code.lines(&enumeration.derives);
-    open!(code, "pub enum ", name, " {");
-    for variant in &enumeration.variants {
-        code.doc(&variant.docs);
-        line!(code, variant.name, ",");
-    }
-    if enumeration.complete.is_none() {
-        code.doc("A number that no other variant represents.");
-        line!(code, "Unknown(", native, "),");
-    }
-    code.close("}");
+    let unknown = enumeration.complete.is_none().then_some(("A number that no other variant represents.", native));
+    variants(code, name, enumeration.variants.iter().map(|variant| (&variant.docs, &variant.name)), unknown);
     open!(code, "impl ", name, " {");
     code.doc("All values with names.");
     let all: Vec<Doc> = enumeration.variants.iter().map(|variant| seq!["Self::", variant.name]).collect();
     line!(code, "pub const ALL: [Self; ", all.len().to_string(), "] = ", list("[", &all, "]"), ";");
     from_raw(code, enumeration);
     code.doc("Returns the number of the variant.");
-    open!(code, "pub const fn raw(self) -> ", native, " {");
-    open!(code, "match self {");
-    for variant in &enumeration.variants {
-        line!(code, "Self::", variant.name, " => ", variant.value, ",");
-    }
-    if enumeration.complete.is_none() {
-        line!(code, "Self::Unknown(other) => other,");
-    }
-    code.close("}");
-    code.close("}");
+    let numbers = enumeration.variants.iter().map(|variant| (seq!["Self::", variant.name], variant.value.as_str()));
+    let unknown = unknown.map(|_| (Doc::from("Self::Unknown(other)"), "other"));
+    matching(code, seq!["pub const fn raw(self) -> ", native], "self", numbers.chain(unknown));
     code.close("}");
     open!(code, "impl rt::Enumeration for ", name, " {");
     line!(code, "type Base = ", enumeration.base, ";");
-    open!(code, "fn from_native(native: ", native, ") -> Self {");
-    line!(code, "Self::from_raw(native)");
-    code.close("}");
-    open!(code, "fn native(self) -> ", native, " {");
-    line!(code, "self.raw()");
-    code.close("}");
+    code.block(seq!["fn from_native(native: ", native, ") -> Self"], "Self::from_raw(native)");
+    code.block(seq!["fn native(self) -> ", native], "self.raw()");
     code.close("}");
     conversions(code, enumeration);
     if let Some(gate) = &enumeration.equality {
@@ -71,21 +52,50 @@ pub(in crate::backend::rust) fn enumeration(code: &mut Code, enumeration: &Enume
     }
 }
 
+/// Writes an enum. `all` contains the documentation and the code of each variant. `unknown` contains the documentation
+/// and the type of the variant `Unknown`, if the enum has it.
+pub(super) fn variants<'v, P: Piece>(
+    code: &mut Code,
+    name: &str,
+    all: impl Iterator<Item = (&'v String, P)>,
+    unknown: Option<(&str, &str)>,
+) {
+    open!(code, "pub enum ", name, " {");
+    for (docs, variant) in all {
+        code.doc(docs);
+        line!(code, variant, ",");
+    }
+    if let Some((docs, native)) = unknown {
+        code.doc(docs);
+        line!(code, "Unknown(", native, "),");
+    }
+    code.close("}");
+}
+
+/// Writes a function that matches `subject`. Each of the arms consists of a pattern and an expression.
+pub(super) fn matching<P: Piece, E: Piece>(
+    code: &mut Code,
+    function: impl Piece,
+    subject: impl Piece,
+    arms: impl Iterator<Item = (P, E)>,
+) {
+    open!(code, function, " {");
+    open!(code, "match ", subject, " {");
+    for (pattern, expression) in arms {
+        line!(code, pattern, " => ", expression, ",");
+    }
+    code.close("}");
+    code.close("}");
+}
+
 /// Writes the conversion to the number and, if the enumeration has the variant `Unknown`, the conversion from any
 /// number.
 fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
     let (name, native) = (&enumeration.name, enumeration.native);
-    open!(code, "impl core::convert::From<", name, "> for ", native, " {");
-    open!(code, "fn from(value: ", name, ") -> Self {");
-    line!(code, "value.raw()");
-    code.close("}");
-    code.close("}");
+    let from = |ty: &str| seq!["core::convert::From<", ty, ">"];
+    code.implementation(from(name), native, seq!["fn from(value: ", name, ") -> Self"], "value.raw()");
     if enumeration.complete.is_none() {
-        open!(code, "impl core::convert::From<", native, "> for ", name, " {");
-        open!(code, "fn from(raw: ", native, ") -> Self {");
-        line!(code, "Self::from_raw(raw)");
-        code.close("}");
-        code.close("}");
+        code.implementation(from(native), name, seq!["fn from(raw: ", native, ") -> Self"], "Self::from_raw(raw)");
     }
 }
 
@@ -93,19 +103,12 @@ fn conversions(code: &mut Code, enumeration: &EnumerationModel) {
 /// the two compared values.
 pub(in crate::backend::rust) fn equality(code: &mut Code, name: &str, gate: &[String], [raw, other]: [&str; 2]) {
     code.lines(gate);
-    open!(code, "impl core::cmp::PartialEq for ", name, " {");
-    open!(code, "fn eq(&self, other: &Self) -> bool {");
-    line!(code, raw, " == ", other);
-    code.close("}");
-    code.close("}");
+    code.implementation("core::cmp::PartialEq", name, "fn eq(&self, other: &Self) -> bool", seq![raw, " == ", other]);
     code.lines(gate);
     line!(code, "impl core::cmp::Eq for ", name, " {}");
     code.lines(gate);
-    open!(code, "impl core::hash::Hash for ", name, " {");
-    open!(code, "fn hash<H: core::hash::Hasher>(&self, state: &mut H) {");
-    line!(code, "core::hash::Hash::hash(&", raw, ", state);");
-    code.close("}");
-    code.close("}");
+    let function = "fn hash<H: core::hash::Hasher>(&self, state: &mut H)";
+    code.implementation("core::hash::Hash", name, function, seq!["core::hash::Hash::hash(&", raw, ", state);"]);
 }
 
 /// Writes the implementations of `Display`, `FromStr` and `rt::Named`. The implementation of `rt::Named` contains the
@@ -114,21 +117,23 @@ fn texts(code: &mut Code, enumeration: &EnumerationModel, gate: &[String]) {
     let name = &enumeration.name;
     code.lines(gate);
     open!(code, "impl rt::Named for ", name, " {");
-    let named = |variant: &VariantModel| list("(", &[seq!["Self::", variant.name], variant.title.clone().into()], ")");
-    let names: Vec<Doc> = enumeration.variants.iter().map(named).collect();
-    line!(code, "const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
+    let named = enumeration.variants.iter().map(|variant| (&variant.name, variant.title.clone()));
+    line!(code, "const NAMES: &'static [(Self, &'static str)] = ", names(named), ";");
     code.close("}");
     bit_field::format(code, gate, "Display", name, call!("rt::display_name", "*self", "f"));
     from_str(code, gate, name, "rt", call!("rt::parse_name", "text"));
+}
+
+/// Returns the list of variants, each with the literal of its name.
+fn names<'v>(named: impl Iterator<Item = (&'v String, String)>) -> Doc {
+    list("&[", named.map(|(variant, name)| list("(", [seq!["Self::", variant], name.into()], ")")), "]")
 }
 
 fn from_str(code: &mut Code, gate: &[String], name: &str, runtime: &str, body: Doc) {
     code.lines(gate);
     open!(code, "impl core::str::FromStr for ", name, " {");
     line!(code, "type Err = ", runtime, "::UnknownName;");
-    open!(code, "fn from_str(text: &str) -> Result<Self, ", runtime, "::UnknownName> {");
-    line!(code, body);
-    code.close("}");
+    code.block(seq!["fn from_str(text: &str) -> Result<Self, ", runtime, "::UnknownName>"], body);
     code.close("}");
 }
 
@@ -137,21 +142,14 @@ fn from_raw(code: &mut Code, enumeration: &EnumerationModel) {
         Some(_) => "Returns the variant for this number. Bits beyond the width of the enumeration are ignored.",
         None => "Returns the variant for this number.",
     });
-    open!(code, "pub const fn from_raw(raw: ", enumeration.native, ") -> Self {");
-    match &enumeration.complete {
-        Some(mask) => open!(code, "match raw & ", mask, " {"),
-        None => open!(code, "match raw {"),
-    }
-    for (left, variant) in (0..enumeration.variants.len()).rev().zip(&enumeration.variants) {
+    let mask = enumeration.complete.as_ref().map(|mask| seq![" & ", mask]);
+    let unknown = mask.is_none().then(|| ("other", Doc::from("Self::Unknown(other)")));
+    let arms = (0..enumeration.variants.len()).rev().zip(&enumeration.variants).map(|(left, variant)| {
         let is_rest = left == 0 && enumeration.complete.is_some();
-        let pattern = if is_rest { "_" } else { variant.value.as_str() };
-        line!(code, pattern, " => Self::", variant.name, ",");
-    }
-    if enumeration.complete.is_none() {
-        line!(code, "other => Self::Unknown(other),");
-    }
-    code.close("}");
-    code.close("}");
+        (if is_rest { "_" } else { variant.value.as_str() }, seq!["Self::", variant.name])
+    });
+    let function = seq!["pub const fn from_raw(raw: ", enumeration.native, ") -> Self"];
+    matching(code, function, seq!["raw", mask], arms.chain(unknown));
 }
 
 pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel) {
@@ -162,10 +160,9 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
     if let Some((states, commands)) = both {
         open!(code, "impl ", states.name, " {");
         code.doc("Returns the next step from this state toward `target`. The path enters neither a fault state nor an energized state on the way.");
-        let result = generic!("rt::Step", commands.name);
-        open!(code, call!("pub fn toward", "self", "target: Self"), " -> ", result, " {");
-        line!(code, call!("rt::Step::toward", "self", "target"));
-        code.close("}");
+        let function =
+            seq![call!("pub fn toward", "self", "target: Self"), " -> ", generic!("rt::Step", commands.name)];
+        code.block(function, call!("rt::Step::toward", "self", "target"));
         code.close("}");
         machine_state(code, machine, states, commands);
     }
@@ -193,21 +190,15 @@ fn machine_state(code: &mut Code, machine: &MachineModel, states: &PatternsModel
     if let Some(state) = &machine.energized {
         line!(code, "const ENERGIZED: &'static [u8] = &[Self::", state, " as u8];");
     }
-    open!(code, "fn of_status(bits: u32) -> Option<Self> {");
     // Clippy reports casts to the same type.
     let cast = |from: &str, to: &str| if from == to { String::new() } else { format!(" as {to}") };
-    line!(code, "Self::from_raw(bits", cast("u32", states.native), ")");
-    code.close("}");
-    open!(code, "fn number(self) -> u8 {");
-    line!(code, "self as u8");
-    code.close("}");
-    open!(code, "fn name(self) -> &'static str {");
-    line!(code, "Self::NAMES[self as usize].1");
-    code.close("}");
-    open!(code, "fn pattern(command: ", commands.name, ") -> (u32, u32) {");
+    let state = seq!["Self::from_raw(bits", cast("u32", states.native), ")"];
+    code.block("fn of_status(bits: u32) -> Option<Self>", state);
+    code.block("fn number(self) -> u8", "self as u8");
+    code.block("fn name(self) -> &'static str", "Self::NAMES[self as usize].1");
     let cast = cast(commands.native, "u32");
-    line!(code, "(command.mask()", cast, ", command.value()", cast, ")");
-    code.close("}");
+    let pattern = seq!["(command.mask()", cast, ", command.value()", cast, ")"];
+    code.block(seq!["fn pattern(command: ", commands.name, ") -> (u32, u32)"], pattern);
     code.close("}");
 }
 
@@ -216,19 +207,11 @@ fn patterns(code: &mut Code, patterns: &PatternsModel, noun: &str) {
     let name = &patterns.name;
     code.docs(&patterns.docs);
     code.lines(&patterns.derives);
-    open!(code, "pub enum ", name, " {");
-    for pattern in &patterns.patterns {
-        code.doc(&pattern.docs);
-        line!(code, pattern.name, ",");
-    }
-    code.close("}");
+    variants(code, name, patterns.patterns.iter().map(|pattern| (&pattern.docs, &pattern.name)), None);
     open!(code, "impl ", name, " {");
     code.doc(&format!("All {noun} with their names, in the order of the variants. The names are those of the description, with blanks instead of underscores."));
-    let named = |pattern: &PatternModel| {
-        list("(", &[seq!["Self::", pattern.name], literal::string(&pattern.title).into()], ")")
-    };
-    let names: Vec<Doc> = patterns.patterns.iter().map(named).collect();
-    line!(code, "pub const NAMES: &'static [(Self, &'static str)] = ", list("&[", &names, "]"), ";");
+    let named = patterns.patterns.iter().map(|pattern| (&pattern.name, literal::string(&pattern.title)));
+    line!(code, "pub const NAMES: &'static [(Self, &'static str)] = ", names(named), ";");
     code.close("}");
     if let Some(gate) = &patterns.texts {
         bit_field::format(code, gate, "Display", name, call!("f.pad", "Self::NAMES[*self as usize].1"));
@@ -249,10 +232,8 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
         open!(code, "impl ", bits, " {");
         self::getter(code, patterns, getter, "state");
         code.doc("Returns the bits of a state. All bits on which the state does not depend are 0.");
-        let state = seq!["state: ", patterns.name];
-        open!(code, call!(seq!["pub const fn ", constructor], state), " -> Self {");
-        line!(code, "Self(state.value())");
-        code.close("}");
+        let function = call!(seq!["pub const fn ", constructor], seq!["state: ", patterns.name]);
+        code.block(seq![function, " -> Self"], "Self(state.value())");
         code.close("}");
     }
 }
@@ -260,9 +241,8 @@ fn states(code: &mut Code, patterns: &PatternsModel) {
 /// Writes the method of a bit field that returns the state or command.
 fn getter(code: &mut Code, patterns: &PatternsModel, getter: &str, noun: &str) {
     code.doc(&format!("Returns the {noun}, or `None` if the bits match no {noun}."));
-    open!(code, call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, "> {");
-    line!(code, patterns.name, "::from_raw(self.0)");
-    code.close("}");
+    let function = seq![call!(seq!["pub const fn ", getter], "self"), " -> Option<", patterns.name, ">"];
+    code.block(function, seq![patterns.name, "::from_raw(self.0)"]);
 }
 
 /// Writes the function that returns the first matching pattern.
@@ -270,9 +250,7 @@ fn decoder<'p>(code: &mut Code, model: &PatternsModel, patterns: impl Iterator<I
     open!(code, "pub const fn from_raw(raw: ", model.native, ") -> Option<Self> {");
     for pattern in patterns {
         let masked = if pattern.is_whole { seq![] } else { seq![" & ", pattern.mask] };
-        open!(code, "if raw", masked, " == ", pattern.value, " {");
-        line!(code, "return Some(Self::", pattern.name, ");");
-        code.close("}");
+        code.block(seq!["if raw", masked, " == ", pattern.value], seq!["return Some(Self::", pattern.name, ");"]);
     }
     line!(code, "None");
     code.close("}");
@@ -280,13 +258,8 @@ fn decoder<'p>(code: &mut Code, model: &PatternsModel, patterns: impl Iterator<I
 
 /// Writes a function that returns a number for each pattern.
 fn arms(code: &mut Code, patterns: &PatternsModel, function: &str, number: impl Fn(&PatternModel) -> &String) {
-    open!(code, "pub const fn ", function, "(self) -> ", patterns.native, " {");
-    open!(code, "match self {");
-    for pattern in &patterns.patterns {
-        line!(code, "Self::", pattern.name, " => ", number(pattern), ",");
-    }
-    code.close("}");
-    code.close("}");
+    let arms = patterns.patterns.iter().map(|pattern| (seq!["Self::", pattern.name], number(pattern)));
+    matching(code, seq!["pub const fn ", function, "(self) -> ", patterns.native], "self", arms);
 }
 
 fn commands(code: &mut Code, patterns: &PatternsModel) {
@@ -308,10 +281,8 @@ fn commands(code: &mut Code, patterns: &PatternsModel) {
         self::getter(code, patterns, getter, "command");
         code.doc("Returns a copy that encodes `command`. All bits outside the mask of the command are unchanged.");
         line!(code, "#[must_use]");
-        let command = seq!["command: ", patterns.name];
-        open!(code, call!(seq!["pub const fn ", setter], "self", command), " -> Self {");
-        line!(code, "Self((self.0 & !command.mask()) | command.value())");
-        code.close("}");
+        let function = call!(seq!["pub const fn ", setter], "self", seq!["command: ", patterns.name]);
+        code.block(seq![function, " -> Self"], "Self((self.0 & !command.mask()) | command.value())");
         code.close("}");
     }
 }

@@ -33,18 +33,14 @@ pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_
     for field in &pdo.fields {
         code.docs(&field.docs);
         line!(code, "#[inline]");
-        open!(code, call!(seq!["pub fn ", field.getter], "&self"), " -> ", field.ty, " {");
-        line!(code, field.get_in_image());
-        code.close("}");
+        code.block(seq![call!(seq!["pub fn ", field.getter], "&self"), " -> ", field.ty], field.get_in_image());
     }
     code.close("}");
     open!(code, "impl<B: AsMut<[u8]>> ", pdo.name, "<B> {");
     for field in &pdo.fields {
         code.docs(&field.docs);
         line!(code, "#[inline]");
-        open!(code, call!(seq!["pub fn ", field.setter], "&mut self", seq!["value: ", field.ty]), " {");
-        line!(code, field.set_in_image());
-        code.close("}");
+        code.block(call!(seq!["pub fn ", field.setter], "&mut self", seq!["value: ", field.ty]), field.set_in_image());
     }
     code.close("}");
 }
@@ -52,9 +48,7 @@ pub(in crate::backend::rust) fn view(code: &mut Code, pdo: &PdoModel, is_one_of_
 fn constructors(code: &mut Code, pdo: &PdoModel) {
     code.docs_with_error("Creates a view of the PDO at the start of `data`.", ERROR);
     line!(code, "#[inline]");
-    open!(code, "pub fn new(data: B) -> Result<Self, rt::LengthError> {");
-    line!(code, "Self::at(data, 0)");
-    code.close("}");
+    code.block("pub fn new(data: B) -> Result<Self, rt::LengthError>", "Self::at(data, 0)");
     code.docs_with_error("Creates a view of the PDO that starts at bit offset `bit` of `data`.", ERROR);
     line!(code, "#[inline]");
     open!(code, "pub fn at(data: B, bit: usize) -> Result<Self, rt::LengthError> {");

@@ -1,7 +1,7 @@
 //! Prints channel errors and user-defined diagnosis structures.
 
 use super::{fields, literal};
-use crate::backend::rust::code::{call, line, list, open, Code};
+use crate::backend::rust::code::{call, line, list, open, seq, Code};
 use crate::backend::rust::profinet::{FileModel, UnitModel};
 use crate::number::hex16;
 
@@ -24,9 +24,8 @@ pub(super) fn write(code: &mut Code, file: &FileModel<'_>) {
             "Returns `None` if the device description does not contain the error type, for example if the standard defines the error type.",
         );
         let function = call!("pub fn channel_error", "api: u32", "error_type: u16");
-        open!(code, function, " -> Option<&'static rt::profinet::ChannelError> {");
-        line!(code, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
-        code.close("}");
+        let function = seq![function, " -> Option<&'static rt::profinet::ChannelError>"];
+        code.block(function, "rt::profinet::ChannelError::find(&CHANNEL_ERRORS, api, error_type)");
     }
     file.units.iter().for_each(|unit| self::unit(code, unit));
 }

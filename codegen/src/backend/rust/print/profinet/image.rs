@@ -54,9 +54,7 @@ fn io_data(code: &mut Code, image: &ImageModel) {
     line!(code, "const LEN: usize = Self::LEN;");
     line!(code, "const TRAILER_LEN: usize = ", image.trailer, ";");
     line!(code, "const STATUS_LEN: usize = ", image.status, ";");
-    open!(code, "fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {");
-    line!(code, "Self::unpack(data)");
-    code.close("}");
+    code.block("fn unpack(data: &[u8]) -> Result<Self, rt::LengthError>", "Self::unpack(data)");
     open!(code, "fn pack_into(&self, data: &mut [u8]) -> Result<(), rt::LengthError> {");
     line!(code, "rt::profinet::be::write(data, &self.pack())?;");
     line!(code, "Ok(())");
@@ -93,9 +91,8 @@ fn view_mut(code: &mut Code, image: &ImageModel) {
     open!(code, "impl<'a> ", name, "Mut<'a> {");
     code.docs_with_error("Creates a view of the user data at the start of `data`.", ERROR);
     line!(code, "#[inline]");
-    open!(code, "pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError> {");
-    line!(code, "Ok(Self(rt::profinet::be::chunk_mut(data)?))");
-    code.close("}");
+    let function = "pub fn new(data: &'a mut [u8]) -> Result<Self, rt::LengthError>";
+    code.block(function, "Ok(Self(rt::profinet::be::chunk_mut(data)?))");
     let function = seq!["pub fn view(&self) -> ", name, "View<'_>"];
     method(code, "Returns a view that reads the fields.", function, &seq![name, "View(self.0)"]);
     for field in &image.fields {
@@ -109,7 +106,5 @@ fn view_mut(code: &mut Code, image: &ImageModel) {
 fn method(code: &mut Code, docs: &str, function: Doc, body: &Doc) {
     code.doc(docs);
     line!(code, "#[inline]");
-    open!(code, function, " {");
-    line!(code, body);
-    code.close("}");
+    code.block(function, body);
 }

@@ -22,11 +22,7 @@ pub(super) fn write(code: &mut Code, record: &RecordModel) {
     encode(code, record);
     decode(code, record);
     code.close("}");
-    open!(code, "impl Default for ", name, " {");
-    open!(code, "fn default() -> Self {");
-    line!(code, "Self::DEFAULT");
-    code.close("}");
-    code.close("}");
+    code.implementation("Default", name, "fn default() -> Self", "Self::DEFAULT");
     record_data(code, name);
 }
 
@@ -100,9 +96,7 @@ fn record_data(code: &mut Code, name: &str) {
     line!(code, "const INDEX: u16 = Self::INDEX;");
     line!(code, "const LEN: usize = Self::LEN;");
     line!(code, "const TRANSFER_SEQUENCE: u16 = Self::TRANSFER_SEQUENCE;");
-    open!(code, "fn decode(data: &[u8]) -> Result<Self, rt::LengthError> {");
-    line!(code, "Self::decode(data)");
-    code.close("}");
+    code.block("fn decode(data: &[u8]) -> Result<Self, rt::LengthError>", "Self::decode(data)");
     open!(code, "fn encode_into<'b>(");
     line!(code, "&self,");
     line!(code, "data: &'b mut [u8],");
