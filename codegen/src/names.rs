@@ -49,14 +49,25 @@ pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec
 
 /// Returns unique identifiers for `name_requests`, in the same order. None of the identifiers is in `reserved`. Names with more
 /// than [`MAX_IDENTIFIER`] characters are cut, if possible at the end of a word.
-pub fn unique(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case) -> Vec<String> {
+pub fn unique<'a>(
+    name_requests: impl IntoIterator<Item = NameRequest<'a>>,
+    reserved: &[&str],
+    case: Case,
+) -> Vec<String> {
     unique_up_to(name_requests, reserved, case, MAX_IDENTIFIER)
 }
 
 /// Returns unique identifiers like [`unique`], with names cut to `length` characters before they get a suffix.
-pub fn unique_up_to(name_requests: &[NameRequest<'_>], reserved: &[&str], case: Case, length: usize) -> Vec<String> {
-    let plain: Vec<String> = name_requests.iter().map(|name_request| plain(name_request, case, length)).collect();
-    distinct(&plain, name_requests.iter().map(|name_request| name_request.suffix.as_str()), reserved, case)
+pub fn unique_up_to<'a>(
+    name_requests: impl IntoIterator<Item = NameRequest<'a>>,
+    reserved: &[&str],
+    case: Case,
+    length: usize,
+) -> Vec<String> {
+    let name_requests = name_requests.into_iter();
+    let (plain, suffixes): (Vec<String>, Vec<String>) =
+        name_requests.map(|name_request| (plain(&name_request, case, length), name_request.suffix)).unzip();
+    distinct(&plain, suffixes.iter().map(String::as_str), reserved, case)
 }
 
 /// Returns the identifier of an element that is the only one in its scope.
@@ -376,7 +387,7 @@ mod tests {
     fn names(pairs: &[(&str, &str)]) -> Vec<String> {
         let name_requests: Vec<NameRequest<'_>> =
             pairs.iter().map(|&(name, suffix)| NameRequest::new(name, "object", suffix)).collect();
-        unique(&name_requests, &["new"], Case::Snake)
+        unique(name_requests, &["new"], Case::Snake)
     }
 
     #[test]
@@ -397,7 +408,7 @@ mod tests {
         assert_eq!(got, ["a_chapter_speed_64", "a_other", "object_ss_2", "new_other", "new_other_other"]);
         let name_requests = [NameRequest::new("A 2", "object", "U64"), NameRequest::new("a2", "object", "7")];
         assert_eq!(
-            unique(&name_requests, &[], Case::Pascal),
+            unique(name_requests, &[], Case::Pascal),
             ["A2U64", "A2_7"],
             "camel case has underscores only between digits"
         );

@@ -24,8 +24,8 @@ const RESERVED: [&str; 6] = ["boot", "bit_rate", "network_node", "node_id", "dur
 pub fn rust(network: &Network, options: &RustOptions) -> Vec<(String, String)> {
     let requests: Vec<NameRequest<'_>> =
         network.nodes.iter().map(|node| NameRequest::new(&node.name.value, "node", node.id)).collect();
-    let modules = unique(&requests, &RESERVED, Case::Snake);
-    let types = unique(&requests, &["NetworkNode", "Node", "Boot", "Booted", "BootError"], Case::Pascal);
+    let modules = unique(requests.clone(), &RESERVED, Case::Snake);
+    let types = unique(requests, &["NetworkNode", "Node", "Boot", "Booted", "BootError"], Case::Pascal);
     let mut files = Vec::new();
     let mut named = Vec::new();
     for ((node, module), ty) in network.nodes.iter().zip(&modules).zip(&types) {

@@ -19,7 +19,7 @@ const RESERVED: [&str; 1] = ["command"];
 pub fn segment_rust(segment: &Segment) -> String {
     let requests: Vec<NameRequest<'_>> =
         segment.subdevices.iter().map(|one| NameRequest::new(&one.name, "subdevice", one.position)).collect();
-    let modules = unique(&requests, &RESERVED, Case::Snake);
+    let modules = unique(requests, &RESERVED, Case::Snake);
     let mut text = HEADER.to_owned();
     if segment.subdevices.iter().any(|one| !one.startup.is_empty()) {
         text += COMMAND;

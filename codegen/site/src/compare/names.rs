@@ -21,8 +21,7 @@ impl Identifiers {
     /// Returns the identifiers for these groups. An identifier is created from the name; if several elements have the
     /// same name, also from the address.
     pub fn of(groups: &[Group]) -> Self {
-        let name_requests: Vec<NameRequest<'_>> = groups.iter().flat_map(name_requests).collect();
-        let mut names = unique(&name_requests, &[], Case::Snake).into_iter();
+        let mut names = unique(groups.iter().flat_map(name_requests), &[], Case::Snake).into_iter();
         let mut identifiers = Identifiers { groups: Vec::new(), items: Vec::new() };
         for group in groups {
             let (name, items) = match group.index() {
@@ -51,7 +50,7 @@ fn entries(group: &Group) -> Vec<String> {
     let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
     let name_requests: Vec<NameRequest<'_>> =
         group.items.iter().map(|item| NameRequest::new(&item.name, "sub", sub_index(item))).collect();
-    unique(&name_requests, &[], Case::Snake)
+    unique(name_requests, &[], Case::Snake)
 }
 
 fn suffix(item: &Item) -> String {

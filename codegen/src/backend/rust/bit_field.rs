@@ -213,7 +213,7 @@ pub(super) fn model(
 
 fn view_methods(views: &[View], reserved: &[&str]) -> Vec<String> {
     let name_requests = names::numbered(views.iter().map(|view| view.words.as_str()), "view");
-    names::unique(&name_requests, reserved, Case::Snake)
+    names::unique(name_requests, reserved, Case::Snake)
 }
 
 /// Returns the lines of the documentation table of a bit field. The table lists `fields`, and the reserved bits that do
@@ -257,7 +257,7 @@ fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
 /// Converts the name of a type to the name of a method.
 fn snake(name: &str) -> String {
     let name_request = NameRequest { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
-    names::unique(&[name_request], &RESERVED, Case::Snake).remove(0)
+    names::unique([name_request], &RESERVED, Case::Snake).remove(0)
 }
 
 /// Returns the reserved bits that must be written as 0, and those that must be written as 1. Bits that also belong to
@@ -345,16 +345,12 @@ impl Fields<'_, '_> {
         // If the meaning of a bit depends on the firmware version, the bit can have two fields with the same name. A
         // suffix with the position makes the names of these fields unique.
         let mut seen = HashSet::default();
-        let name_requests: Vec<NameRequest<'_>> = entries
-            .iter()
-            .enumerate()
-            .map(|(position, entry)| {
-                let is_again = !seen.insert((&entry.name, entry.offset));
-                let position_suffix = if is_again { format!("_{position}") } else { String::new() };
-                NameRequest::new(&entry.name, "bit", format!("{}{position_suffix}", entry.offset))
-            })
-            .collect();
-        let names = names::unique(&name_requests, reserved, Case::Snake);
+        let name_requests = entries.iter().enumerate().map(|(position, entry)| {
+            let is_again = !seen.insert((&entry.name, entry.offset));
+            let position_suffix = if is_again { format!("_{position}") } else { String::new() };
+            NameRequest::new(&entry.name, "bit", format!("{}{position_suffix}", entry.offset))
+        });
+        let names = names::unique(name_requests, reserved, Case::Snake);
         let mut used: HashSet<String> = names.iter().cloned().collect();
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
             let setter = unused_name(|name| used.contains(name), names::prefixed("with_", name));

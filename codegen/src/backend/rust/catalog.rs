@@ -94,15 +94,12 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
     for (_, module) in modules {
         *same_number.entry(module.number).or_default() += 1;
     }
-    let name_requests: Vec<NameRequest<'_>> = modules
-        .iter()
-        .map(|(id, module)| {
-            let name = if module.id.is_empty() { &module.name } else { &module.id };
-            let position = if same_number[&module.number] > 1 { format!("_{}", id.0) } else { String::new() };
-            NameRequest::new(name, "module", format!("{:08X}{position}", module.number))
-        })
-        .collect();
-    escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
+    let name_requests = modules.iter().map(|(id, module)| {
+        let name = if module.id.is_empty() { &module.name } else { &module.id };
+        let position = if same_number[&module.number] > 1 { format!("_{}", id.0) } else { String::new() };
+        NameRequest::new(name, "module", format!("{:08X}{position}", module.number))
+    });
+    escaped(names::unique(name_requests, &RESERVED, Case::Snake))
 }
 
 /// Returns unique names of the devices. The names are based on order codes if possible, because order codes are shorter
@@ -116,22 +113,17 @@ fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
     for (device, name) in devices.iter().zip(&names) {
         *same_revision.entry((name, device.identity.revision_number)).or_default() += 1;
     }
-    let name_requests: Vec<NameRequest<'_>> = devices
-        .iter()
-        .zip(&names)
-        .enumerate()
-        .map(|(position, (device, name))| {
-            let identity = &device.identity;
-            let twice = !seen.insert((identity.product_code, identity.revision_number));
-            let position_suffix = if twice { format!("_{position}") } else { String::new() };
-            let revision = identity.revision_number.unwrap_or(0);
-            let is_one_of_several = same_revision[&(name.as_str(), identity.revision_number)] > 1;
-            let product =
-                if is_one_of_several { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
-            NameRequest::new(name, "device", format!("{product}{revision:08X}{position_suffix}"))
-        })
-        .collect();
-    escaped(names::unique(&name_requests, &RESERVED, Case::Snake))
+    let name_requests = devices.iter().zip(&names).enumerate().map(|(position, (device, name))| {
+        let identity = &device.identity;
+        let twice = !seen.insert((identity.product_code, identity.revision_number));
+        let position_suffix = if twice { format!("_{position}") } else { String::new() };
+        let revision = identity.revision_number.unwrap_or(0);
+        let is_one_of_several = same_revision[&(name.as_str(), identity.revision_number)] > 1;
+        let product =
+            if is_one_of_several { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
+        NameRequest::new(name, "device", format!("{product}{revision:08X}{position_suffix}"))
+    });
+    escaped(names::unique(name_requests, &RESERVED, Case::Snake))
 }
 
 fn escaped(names: Vec<String>) -> Vec<String> {

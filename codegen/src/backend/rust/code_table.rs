@@ -31,9 +31,9 @@ pub(super) struct CodeTableModel {
 
 pub(super) fn models(context: &Context<'_>, device: &Device, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = device.code_tables.iter().filter(|table| !table.rows.is_empty()).collect();
-    let name_requests = names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
-    let names = names::unique(&name_requests, &bus_facts::RESERVED, Case::Snake);
-    let types = names::unique(&name_requests, &["Self"], Case::Pascal);
+    let name_requests = || names::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
+    let names = names::unique(name_requests(), &bus_facts::RESERVED, Case::Snake);
+    let types = names::unique(name_requests(), &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
     named.map(|(table, (name, ty))| model(table, name.to_ascii_uppercase(), ty, context, options)).collect()
 }

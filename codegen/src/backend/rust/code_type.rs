@@ -64,8 +64,8 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let name_request = |(span, row): &(Span, &'a CodeRow)| {
         NameRequest::new(&row.name, "code", span.0.to_string().replace('-', "Minus"))
     };
-    let name_requests: Vec<NameRequest<'a>> = rows.iter().map(name_request).collect();
-    let names = names::unique(&name_requests, &RESERVED, Case::Pascal);
+    let name_requests = rows.iter().map(name_request);
+    let names = names::unique(name_requests, &RESERVED, Case::Pascal);
     let spans: Vec<Span> = rows.iter().map(|(span, _)| *span).collect();
     let pieces = disjoint(&spans);
     let covered: i128 = pieces.iter().map(|(_, span)| i128::from(span.1) - i128::from(span.0) + 1).sum();

@@ -10,7 +10,7 @@ use super::literal;
 use super::objects::ObjectModel;
 use super::variant;
 use crate::ir::{Device, Value, Variant};
-use crate::names::{self, Case, NameRequest};
+use crate::names::{self, Case};
 
 /// A model of the device that has constants or different items, ready to be printed.
 pub(super) struct DeviceModel {
@@ -50,9 +50,8 @@ pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectMo
         (variant, constants(device, &variant.name, &variant.constants), items)
     });
     let different: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
-    let name_requests: Vec<NameRequest<'_>> =
-        different.iter().map(|(variant, ..)| name_request(&variant.name)).collect();
-    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
+    let name_requests = different.iter().map(|(variant, ..)| name_request(&variant.name));
+    let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
     let model = |((variant, constants, items), name): ((&Variant, _, _), String)| {
         let name = names::escaped(&name);
         DeviceModel { name, docs: documentation(context, variant), constants, items }
@@ -102,8 +101,8 @@ fn constants(
     let given = given.filter(|(_, name, _)| *name == model);
     let given = given.map(|(number, _, value)| (&number.name, value, in_unit(&number.unit)));
     let all: Vec<_> = stated.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
-    let name_requests: Vec<NameRequest<'_>> = all.iter().map(|(name, ..)| name_request(name)).collect();
-    let names = names::unique(&name_requests, &[], Case::Snake);
+    let name_requests = all.iter().map(|(name, ..)| name_request(name));
+    let names = names::unique(name_requests, &[], Case::Snake);
     let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
         let real = literal::real(value.as_real()?, 64)?;
         Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))

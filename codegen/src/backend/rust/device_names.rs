@@ -47,7 +47,7 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
     let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let name_request = |name| NameRequest { name, fallback: String::new(), suffix: "Device".into() };
-    let candidates = names.iter().map(|name| names::unique(&[name_request(*name)], &RESERVED, case).remove(0));
+    let candidates = names.iter().map(|name| names::unique([name_request(*name)], &RESERVED, case).remove(0));
     let name = candidates.into_iter().find(|name| !name.is_empty() && name != "_device").unwrap_or_default();
     names::escaped(&name)
 }
@@ -55,6 +55,6 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
 /// Returns the module name for a file whose name without extension is `stem`. Returns `None` if `stem` has no words.
 pub(super) fn stem_name(stem: &str) -> Option<String> {
     let name_request = NameRequest { name: stem, fallback: String::new(), suffix: "device".into() };
-    let name = names::unique(&[name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);
+    let name = names::unique([name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);
     (!name.is_empty()).then_some(name)
 }

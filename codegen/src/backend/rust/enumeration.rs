@@ -119,11 +119,10 @@ fn table(all: &[EnumValue], values: &[&EnumValue], variants: &[VariantModel]) ->
 }
 
 fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
-    let name_requests: Vec<NameRequest<'_>> = values
+    let name_requests = values
         .iter()
-        .map(|value| NameRequest::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
-        .collect();
-    let names = names::unique(&name_requests, &RESERVED, Case::Pascal);
+        .map(|value| NameRequest::new(&value.name, "value", value.value.to_string().replace('-', "Minus")));
+    let names = names::unique(name_requests, &RESERVED, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let number = value_type::number(value.value, value.value > 0);
         let title = docs::escape(&value.name);

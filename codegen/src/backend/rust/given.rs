@@ -35,8 +35,8 @@ pub(super) fn name_request(name: &str) -> NameRequest<'_> {
 /// Returns the model of the struct that contains the machine constants. Returns `None` if the device declares no
 /// machine constants.
 pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
-    let name_requests: Vec<NameRequest<'_>> = device.given.iter().map(|number| name_request(&number.name)).collect();
-    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
+    let name_requests = device.given.iter().map(|number| name_request(&number.name));
+    let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
     let field = |number: &GivenRef| {
         let name = names.get(number.id?.0 as usize)?;
         Some(format!("self.{}", names::escaped(name)))
@@ -73,7 +73,7 @@ fn units(device: &Device, field: &dyn Fn(&GivenRef) -> Option<String>) -> Vec<Un
     let texts: Vec<String> =
         texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
     let name_requests = names::numbered(texts.iter().map(String::as_str), "conversion");
-    let names = names::unique(&name_requests, &["self"], Case::Snake);
+    let names = names::unique(name_requests, &["self"], Case::Snake);
     let expression = |times: &[GivenRef], over: &[GivenRef]| -> Option<String> {
         let mut text = "value".to_owned();
         for (numbers, operator) in [(times, '*'), (over, '/')] {

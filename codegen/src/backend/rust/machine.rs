@@ -354,7 +354,7 @@ fn patterns(
         return None;
     }
     let name_requests = names::numbered(list.iter().map(|(_, pattern)| pattern.name.as_str()), "pattern");
-    let names = names::unique(&name_requests, &["Self"], Case::Pascal);
+    let names = names::unique(name_requests, &["Self"], Case::Pascal);
     let hexadecimal = |number: u32| if number == 0 { "0".to_owned() } else { hex(number) };
     let pattern = |(&(position, definition), name): (&(u32, &Pattern), String)| {
         let (mask, value) = (hexadecimal(definition.mask), hexadecimal(definition.value));

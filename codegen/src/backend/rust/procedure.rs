@@ -26,7 +26,7 @@ pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<ProcedureMod
     let procedures: Vec<(&Procedure, Vec<String>)> =
         procedures.filter_map(|procedure| Some((procedure, writes(context, procedure)?))).collect();
     let name_requests = names::numbered(procedures.iter().map(|(procedure, _)| procedure.name.as_str()), "procedure");
-    let names = names::unique(&name_requests, &["rt"], Case::Snake);
+    let names = names::unique(name_requests, &["rt"], Case::Snake);
     procedures
         .into_iter()
         .zip(names)

@@ -45,12 +45,12 @@ pub(super) fn windows(scope: &Scope<'_>, device: &Device) -> Vec<Window> {
         }
     }
     let titles: Vec<String> = found.iter().map(title).collect();
-    let name_requests: Vec<NameRequest<'_>> = found
-        .iter()
-        .zip(&titles)
-        .map(|(window, name)| NameRequest { name, fallback: "window".into(), suffix: window.key.1.to_string() })
-        .collect();
-    let names = names::unique(&name_requests, &[], Case::Snake);
+    let name_requests = found.iter().zip(&titles).map(|(window, name)| NameRequest {
+        name,
+        fallback: "window".into(),
+        suffix: window.key.1.to_string(),
+    });
+    let names = names::unique(name_requests, &[], Case::Snake);
     for (window, name) in found.iter_mut().zip(names) {
         window.name = name.to_ascii_uppercase();
     }

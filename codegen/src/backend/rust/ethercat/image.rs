@@ -104,14 +104,11 @@ const RESERVED: [&str; 7] = ["new", "clone", "into", "try_into", "self", "super"
 const MAX_NAME: usize = 30;
 
 fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
-    let name_requests: Vec<NameRequest<'_>> = placed
-        .iter()
-        .map(|(model, bit)| {
-            let index = format!("{:04X}", model.mapping_index);
-            NameRequest { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
-        })
-        .collect();
-    let names = names::unique_up_to(&name_requests, &RESERVED, Case::Snake, MAX_NAME);
+    let name_requests = placed.iter().map(|(model, bit)| {
+        let index = format!("{:04X}", model.mapping_index);
+        NameRequest { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
+    });
+    let names = names::unique_up_to(name_requests, &RESERVED, Case::Snake, MAX_NAME);
     let used: HashSet<&String> = names.iter().collect();
     let field = |((model, bit), name): (&(&PdoModel, u32), &String)| ImageField {
         name: names::escaped(name),

@@ -50,7 +50,7 @@ pub(super) fn calls(
     for name_request in &mut name_requests {
         name_request.suffix.insert_str(0, "message_");
     }
-    let names = names::unique(&name_requests, reserved, Case::Snake);
+    let names = names::unique(name_requests, reserved, Case::Snake);
     let mut calls = Vec::new();
     for ((shape, model, request), name) in with().zip(names) {
         let names = arguments(&request.fields);

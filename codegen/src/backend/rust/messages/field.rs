@@ -53,7 +53,7 @@ pub(super) fn fields(context: &Context<'_>, steps: &[Step<'_>], entry: &str) -> 
     let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
     let name_requests = names::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
     let reserved = ["self", "super", "crate"];
-    let names = names::unique_up_to(&name_requests, &reserved, Case::Snake, MAX_NAME);
+    let names = names::unique_up_to(name_requests, &reserved, Case::Snake, MAX_NAME);
     let all = with.iter().zip(&names).enumerate();
     all.map(|(position, (step, name))| field(context, step, names::escaped(name), position, entry)).collect()
 }

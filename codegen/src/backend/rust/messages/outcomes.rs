@@ -55,7 +55,7 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
 fn constant(machine: &str) -> String {
     let name = format!("outcomes {machine}");
     let name_request = NameRequest { name: &name, fallback: String::new(), suffix: "machine".to_owned() };
-    names::unique(&[name_request], &[], Case::Snake).remove(0).to_ascii_uppercase()
+    names::unique([name_request], &[], Case::Snake).remove(0).to_ascii_uppercase()
 }
 
 fn variant<'v>(variants: &'v HashMap<u32, String>, state: &StateRef) -> Option<&'v str> {

@@ -56,14 +56,14 @@ impl Rules {
             fallback: "space".to_owned(),
             suffix: bits.to_string(),
         };
-        let name_requests: Vec<NameRequest<'_>> = used.iter().map(name_request).collect();
+        let name_requests = used.iter().map(name_request);
         // A type name of one letter, with or without digits after the letter, could also be the name of a constant.
         // Such type names are therefore reserved.
         let upper_case = types.iter().filter(|name| name.to_ascii_uppercase() == **name);
         let types: Vec<String> = upper_case.map(|name| name.to_ascii_lowercase()).collect();
         let mut reserved = vec!["framing", "max_data"];
         reserved.extend(types.iter().map(String::as_str));
-        let names = names::unique_up_to(&name_requests, &reserved, Case::Snake, MAX_NAME);
+        let names = names::unique_up_to(name_requests, &reserved, Case::Snake, MAX_NAME);
         let models = used.iter().zip(names).map(|((space, bits), name)| {
             let definition = device.parameter_space(space);
             let order = definition

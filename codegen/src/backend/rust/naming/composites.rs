@@ -17,7 +17,7 @@ pub(in crate::backend::rust) struct NamedComposite<'a> {
 pub(super) fn names(device: &Device) -> Vec<NamedComposite<'_>> {
     let name_requests = names::numbered(device.composites.iter().map(|composite| composite.name.as_str()), "composite");
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&RESERVED).copied().collect();
-    let names = names::unique(&name_requests, &reserved, Case::Snake);
+    let names = names::unique(name_requests, &reserved, Case::Snake);
     let named = device.composites.iter().zip(names);
     named.map(|(composite, name)| NamedComposite { composite, name: name.to_ascii_uppercase() }).collect()
 }

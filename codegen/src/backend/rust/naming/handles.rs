@@ -121,11 +121,11 @@ fn unique(located: &Located<'_>) -> Vec<String> {
     let registers = located.registers.iter().zip(suffixes);
     let registers = registers.map(|(register, suffix)| NameRequest::new(&register.item.name, "register", suffix));
     let objects = addressable(located).map(|(_, group)| of_object(group, &group.name));
-    let name_requests: Vec<NameRequest<'_>> = registers.chain(objects).collect();
+    let name_requests = registers.chain(objects);
     let has_messages = located.device.is_some_and(|device| !device.messages.is_empty());
     let with_messages = RESERVED_WITH_MESSAGES.into_iter().filter(|_| has_messages);
     let reserved: Vec<&str> = RESERVED.into_iter().chain(with_messages).collect();
-    names::unique(&name_requests, &reserved, Case::Snake)
+    names::unique(name_requests, &reserved, Case::Snake)
 }
 
 /// Returns the request for a name of an object, which is made from `name`.
@@ -137,8 +137,8 @@ fn of_object<'n>(group: &Group, name: &'n str) -> NameRequest<'n> {
 /// objects. These names are unique, but two of them can be equal in camel case.
 fn accessors(objects: &[((u32, &Group), String)]) -> Vec<String> {
     let objects = objects.iter().filter(|((_, group), _)| group.has_entries());
-    let name_requests: Vec<NameRequest<'_>> = objects.map(|((_, group), name)| of_object(group, name)).collect();
-    let names = names::unique(&name_requests, &[], Case::Pascal);
+    let name_requests = objects.map(|((_, group), name)| of_object(group, name));
+    let names = names::unique(name_requests, &[], Case::Pascal);
     names.into_iter().map(|name| format!("{name}Accessors")).collect()
 }
 
@@ -148,10 +148,7 @@ pub(in crate::backend::rust) fn is_cased(name: &str) -> bool {
 }
 
 fn entry_names(group: &Group) -> Vec<String> {
-    let name_requests: Vec<NameRequest<'_>> = group
-        .items
-        .iter()
-        .map(|item| NameRequest::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub)))
-        .collect();
-    names::unique(&name_requests, &RESERVED_IN_OBJECT, Case::Snake)
+    let name_requests =
+        group.items.iter().map(|item| NameRequest::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub)));
+    names::unique(name_requests, &RESERVED_IN_OBJECT, Case::Snake)
 }

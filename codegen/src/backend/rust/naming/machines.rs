@@ -38,8 +38,8 @@ pub(super) fn names<'a>(
 ) -> Vec<NamedMachine<'a>> {
     let type_names = type_names(machines, &|_| false);
     let name_request = |name| NameRequest { name, fallback: "machine".to_owned(), suffix: "machine".to_owned() };
-    let name_requests: Vec<NameRequest<'_>> = type_names.iter().flatten().map(|name| name_request(name)).collect();
-    let mut methods = names::unique(&name_requests, &[], Case::Snake).into_iter();
+    let name_requests = type_names.iter().flatten().map(|name| name_request(name));
+    let mut methods = names::unique(name_requests, &[], Case::Snake).into_iter();
     let mut method = || methods.next().unwrap_or_default();
     let mut ty = || types.next().unwrap_or_default();
     let named = machines.iter().map(|machine| {

@@ -13,9 +13,8 @@ pub(in crate::backend::rust) type MessageNames = [String; 4];
 fn names(shapes: &[Shaped<'_>]) -> Vec<MessageNames> {
     let base_names = shapes.iter().enumerate().flat_map(|(at, shape)| base_names(shape.message).map(|name| (name, at)));
     let base_names: Vec<(String, usize)> = base_names.collect();
-    let name_requests: Vec<NameRequest<'_>> =
-        base_names.iter().map(|(name, at)| NameRequest::new(name, "message", at)).collect();
-    let mut names = names::unique(&name_requests, &RESERVED, Case::Pascal).into_iter();
+    let name_requests = base_names.iter().map(|(name, at)| NameRequest::new(name, "message", at));
+    let mut names = names::unique(name_requests, &RESERVED, Case::Pascal).into_iter();
     shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }
 

@@ -118,19 +118,14 @@ fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
 /// Returns names that are based on the PDO names in the description. None of the names is in `numbers`.
 fn names_by_source(scope: &Scope<'_>, is_named: impl Fn(&Pdo) -> bool, numbers: &[String]) -> Vec<String> {
     let mut seen = HashSet::default();
-    let name_requests: Vec<NameRequest<'_>> = scope
-        .pdos
-        .iter()
-        .filter(|pdo| is_named(pdo))
-        .map(|pdo| {
-            // Several PDOs may have the same index, for example PDOs of different sync managers. The line number then
-            // makes the suffix unique.
-            let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
-            NameRequest::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
-        })
-        .collect();
+    let name_requests = scope.pdos.iter().filter(|pdo| is_named(pdo)).map(|pdo| {
+        // Several PDOs may have the same index, for example PDOs of different sync managers. The line number then
+        // makes the suffix unique.
+        let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
+        NameRequest::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
+    });
     let reserved: Vec<&str> = RESERVED.iter().copied().chain(numbers.iter().map(String::as_str)).collect();
-    names::unique(&name_requests, &reserved, Case::Pascal)
+    names::unique(name_requests, &reserved, Case::Pascal)
 }
 
 /// Reserved names: the keyword `Self`, names that the generated code of PDOs uses, and names of constructors, because

@@ -125,13 +125,13 @@ impl<'a> TypeNames<'a> {
             fallback: format!("view {at}"),
             suffix: format!("{at}_{number}"),
         }));
-        let others = names::unique(&name_requests, &RESERVED, Case::Pascal);
+        let others = names::unique(name_requests.clone(), &RESERVED, Case::Pascal);
         let plain: HashSet<String> = name_requests.iter().map(pascal).collect();
         let is_used = |name: &str| plain.contains(name) || others.iter().any(|other| other == name);
         let machine_names = machines::type_names(machines, &is_used);
         let of_machine = |name| NameRequest { name, fallback: "machine".to_owned(), suffix: "Machine".to_owned() };
         name_requests.extend(machine_names.iter().flatten().map(|name| of_machine(name)));
-        names::unique(&name_requests, &RESERVED, Case::Pascal)
+        names::unique(name_requests, &RESERVED, Case::Pascal)
     }
 }
 

@@ -86,11 +86,9 @@ pub(in crate::backend::rust) struct UnitModel {
 /// Returns the user-defined diagnosis structures that have fields and are not too long.
 pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
-    let name_requests: Vec<NameRequest<'_>> = units
-        .iter()
-        .map(|unit| NameRequest::new(&unit.name, "structure", format!("{:04X}", unit.identifier)))
-        .collect();
-    let names = names::unique_up_to(&name_requests, &[], Case::Pascal, 40);
+    let name_requests =
+        units.iter().map(|unit| NameRequest::new(&unit.name, "structure", format!("{:04X}", unit.identifier)));
+    let names = names::unique_up_to(name_requests, &[], Case::Pascal, 40);
     let models = units.iter().zip(names).map(|(unit, name)| unit_model(unit, name, values, options));
     models.filter(|model| !model.fields.is_empty()).collect()
 }
@@ -113,9 +111,8 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
             Some((field, Field::new(values, ty, (field.bit_offset, field.bits), length, Use::Record)?))
         })
         .collect();
-    let name_requests: Vec<NameRequest<'_>> =
-        found.iter().map(|(entry, field)| image::name_request(&entry.name, field)).collect();
-    let names = names::unique_up_to(&name_requests, &["self", "super", "crate"], Case::Snake, 30);
+    let name_requests = found.iter().map(|(entry, field)| image::name_request(&entry.name, field));
+    let names = names::unique_up_to(name_requests, &["self", "super", "crate"], Case::Snake, 30);
     let field = |((entry, field), name): (&(&_, Field<'_>), String)| {
         let entry: &UnitDiagnosisField = entry;
         let facts = field.facts(values.types, entry.ty);

@@ -125,8 +125,8 @@ fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<Fiel
             Some((entry, Field::new(values, entry.ty, bits, data.image.length, Use::Image)?))
         })
         .collect();
-    let name_requests = found.iter().map(|(entry, field)| name_request(&entry.name, field)).collect::<Vec<_>>();
-    let names = names::unique_up_to(&name_requests, &RESERVED, Case::Snake, MAX_FIELD_NAME);
+    let name_requests = found.iter().map(|(entry, field)| name_request(&entry.name, field));
+    let names = names::unique_up_to(name_requests, &RESERVED, Case::Snake, MAX_FIELD_NAME);
     let all = found.iter().zip(names);
     all.map(|((entry, field), name)| {
         let facts = field.facts(values.types, entry.ty);

@@ -122,11 +122,10 @@ fn named_records(groups: &[Group]) -> Vec<Named<'_>> {
         _ => None,
     });
     let records: Vec<(u32, &Group, &Record)> = records.collect();
-    let name_requests: Vec<NameRequest<'_>> = records
+    let name_requests = records
         .iter()
-        .map(|(_, group, record)| NameRequest::new(&group.name, "parameter", format!("{:04X}", record.index)))
-        .collect();
-    let names = names::unique_up_to(&name_requests, &[], Case::Pascal, MAX_NAME);
+        .map(|(_, group, record)| NameRequest::new(&group.name, "parameter", format!("{:04X}", record.index)));
+    let names = names::unique_up_to(name_requests, &[], Case::Pascal, MAX_NAME);
     let all = records.into_iter().zip(names);
     all.map(|((position, group, record), name)| Named { position, group, record, name }).collect()
 }
@@ -197,9 +196,8 @@ fn record_address(item: &Item) -> Option<(u16, u32, u32)> {
 }
 
 fn named<'p, 'i>(parameters: &'p [Parameter<'i>], reserved: &[&str]) -> Vec<(&'p Parameter<'i>, String)> {
-    let name_requests: Vec<NameRequest<'_>> =
-        parameters.iter().map(|parameter| image::name_request(&parameter.item.name, &parameter.field)).collect();
-    let names = names::unique_up_to(&name_requests, reserved, Case::Snake, MAX_FIELD_NAME);
+    let name_requests = parameters.iter().map(|parameter| image::name_request(&parameter.item.name, &parameter.field));
+    let names = names::unique_up_to(name_requests, reserved, Case::Snake, MAX_FIELD_NAME);
     parameters.iter().zip(names).collect()
 }
 

@@ -52,16 +52,12 @@ impl<'a> Scope<'a> {
 fn access_points(catalog: &Catalog) -> Vec<AccessPoint<'_>> {
     let found: Vec<_> =
         catalog.devices.iter().filter_map(|device| Some((device, device.profinet.as_deref()?))).collect();
-    let name_requests: Vec<NameRequest<'_>> = found
-        .iter()
-        .enumerate()
-        .map(|(at, (device, settings))| NameRequest {
-            name: &device.name,
-            fallback: format!("dap {:08x}", settings.ident),
-            suffix: identifier(&device.id, settings.ident, at),
-        })
-        .collect();
-    let names = names::unique(&name_requests, &RESERVED, Case::Snake);
+    let name_requests = found.iter().enumerate().map(|(at, (device, settings))| NameRequest {
+        name: &device.name,
+        fallback: format!("dap {:08x}", settings.ident),
+        suffix: identifier(&device.id, settings.ident, at),
+    });
+    let names = names::unique(name_requests, &RESERVED, Case::Snake);
     let all = found.into_iter().zip(names);
     all.map(|((device, settings), name)| AccessPoint { device, settings, name: names::escaped(&name) }).collect()
 }
@@ -73,15 +69,12 @@ fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTree
     positions.dedup();
     let found: Vec<(u32, &Module)> =
         positions.into_iter().filter_map(|at| Some((at, catalog.modules.get(at as usize)?))).collect();
-    let name_requests: Vec<NameRequest<'_>> = found
-        .iter()
-        .map(|(at, module)| NameRequest {
-            name: &module.name,
-            fallback: format!("module {:08x}", module.number),
-            suffix: identifier(&module.id, module.number, *at as usize),
-        })
-        .collect();
-    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
+    let name_requests = found.iter().map(|(at, module)| NameRequest {
+        name: &module.name,
+        fallback: format!("module {:08x}", module.number),
+        suffix: identifier(&module.id, module.number, *at as usize),
+    });
+    let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
     found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names::escaped(&name)))).collect()
 }
 
@@ -97,15 +90,12 @@ fn submodules<'a>(
     positions.dedup();
     let found: Vec<(u32, &Submodule)> =
         positions.into_iter().filter_map(|at| Some((at, catalog.submodules.get(at as usize)?))).collect();
-    let name_requests: Vec<NameRequest<'_>> = found
-        .iter()
-        .map(|(at, submodule)| NameRequest {
-            name: &submodule.name,
-            fallback: format!("submodule {:08x}", submodule.ident),
-            suffix: identifier(&submodule.id, submodule.ident, *at as usize),
-        })
-        .collect();
-    let names = names::unique(&name_requests, &["self", "super", "crate"], Case::Snake);
+    let name_requests = found.iter().map(|(at, submodule)| NameRequest {
+        name: &submodule.name,
+        fallback: format!("submodule {:08x}", submodule.ident),
+        suffix: identifier(&submodule.id, submodule.ident, *at as usize),
+    });
+    let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
     found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
 }
 

@@ -68,15 +68,12 @@ impl<'a> Values<'a> {
             })
             .collect();
         // If a list of values is used with several base types, each base type gets its own enumeration.
-        let name_requests: Vec<NameRequest<'_>> = found
-            .iter()
-            .map(|(at, definition, base, _)| NameRequest {
-                name: &definition.name,
-                fallback: format!("values {at}"),
-                suffix: format!("{}{}", if base.is_signed() { "I" } else { "U" }, base.bits().unwrap_or(0)),
-            })
-            .collect();
-        let names = names::unique(&name_requests, &RESERVED_TYPES, Case::Pascal);
+        let name_requests = found.iter().map(|(at, definition, base, _)| NameRequest {
+            name: &definition.name,
+            fallback: format!("values {at}"),
+            suffix: format!("{}{}", if base.is_signed() { "I" } else { "U" }, base.bits().unwrap_or(0)),
+        });
+        let names = names::unique(name_requests, &RESERVED_TYPES, Case::Pascal);
         let all = found.iter().zip(names);
         let enumerations =
             all.map(|((at, definition, base, values), name)| (*at, model(definition, *base, values, name, options)));
@@ -115,14 +112,11 @@ fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, 
     let native = native(base.is_signed(), base.bits().unwrap_or(64));
     // Use at most 255 values as variants. If all 8-bit numbers had a variant, `Unknown` would be unreachable.
     let values = &values[..values.len().min(usize::from(u8::MAX))];
-    let name_requests: Vec<NameRequest<'_>> = values
-        .iter()
-        .map(|value| {
-            let number = value.value.to_string().replace('-', "minus ");
-            NameRequest { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
-        })
-        .collect();
-    let names = names::unique(&name_requests, &RESERVED_VARIANTS, Case::Pascal);
+    let name_requests = values.iter().map(|value| {
+        let number = value.value.to_string().replace('-', "minus ");
+        NameRequest { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
+    });
+    let names = names::unique(name_requests, &RESERVED_VARIANTS, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {
         let title = docs::escape(&value.name);
         let separator = if title.is_empty() { "" } else { ": " };
