@@ -10,7 +10,7 @@ use super::literal;
 use super::method_names::{method_allow, unused_name};
 use super::naming::types::{value_names, NamedType, View};
 use super::options::{Presence, RustOptions};
-use super::value_type::native;
+use super::value_type::{native, native_bits};
 use crate::collections::HashSet;
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Value};
 use crate::names::{self, Case, NameRequest};
@@ -460,10 +460,6 @@ struct Code {
     is_named: bool,
     get: Doc,
     set: Doc,
-}
-
-fn native_bits(native: &str) -> u32 {
-    native[1..].parse().unwrap_or(64)
 }
 
 #[cfg(test)]

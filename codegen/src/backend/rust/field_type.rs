@@ -3,6 +3,7 @@
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
 use super::naming::types::NamedType;
+use super::value_type::{native, native_bits};
 use crate::ir::Type;
 use crate::number::hex;
 
@@ -130,21 +131,9 @@ pub(super) fn field_type(context: &Context<'_>, ty: Type, bits: u32) -> FieldTyp
     }
 }
 
-/// Returns the number of bits of a primitive integer.
-fn native_bits(native: &str) -> u32 {
-    native[1..].parse().unwrap_or(0)
-}
-
 fn integer(signed: bool, bits: u32) -> FieldType {
-    match (signed, bits) {
-        (true, 8) => FieldType::Native("i8"),
-        (true, 16) => FieldType::Native("i16"),
-        (true, 32) => FieldType::Native("i32"),
-        (true, 64) => FieldType::Native("i64"),
-        (false, 8) => FieldType::Native("u8"),
-        (false, 16) => FieldType::Native("u16"),
-        (false, 32) => FieldType::Native("u32"),
-        (false, 64) => FieldType::Native("u64"),
+    match bits {
+        8 | 16 | 32 | 64 => FieldType::Native(native(signed, bits)),
         _ => FieldType::Odd(signed, bits),
     }
 }

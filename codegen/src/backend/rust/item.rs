@@ -139,7 +139,7 @@ pub(super) fn heading(name: &str, address: &str) -> String {
 }
 
 /// Returns the short name of handles with these access rights.
-fn alias(access: Access) -> &'static str {
+pub(super) fn alias(access: Access) -> &'static str {
     match access {
         Access::ReadOnly => "ReadOnly",
         Access::WriteOnly => "WriteOnly",

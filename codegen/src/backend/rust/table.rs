@@ -3,6 +3,7 @@
 use super::code::{call, Doc};
 use super::constructor::flags;
 use super::context::Context;
+use super::item;
 use super::item_addresses::{ItemAddresses, ObjectAddress};
 use super::literal;
 use super::reachable::addressable;
@@ -98,12 +99,7 @@ fn entry(
         register,
         name: literal::string(name),
         data_type: data_type(base),
-        access: match form.access {
-            Access::ReadOnly => "ReadOnly",
-            Access::WriteOnly => "WriteOnly",
-            Access::Constant => "Constant",
-            _ => "ReadWrite",
-        },
+        access: item::alias(form.access),
         flags: flags(item),
         initial: raw_value(item.default.as_ref(), base, ty),
         configured: item.configured_value().map(|value| raw_value(Some(value), base, ty)),
@@ -116,23 +112,9 @@ fn entry(
 fn data_type(ty: Type) -> String {
     let name = match ty {
         Type::Unsigned(bits @ (1..=7 | 9..=15)) => return format!("Bits({bits})"),
+        Type::Integer(bits @ (8 | 16 | 24 | 32 | 40 | 48 | 56 | 64)) => return format!("Integer{bits}"),
+        Type::Unsigned(bits @ (8 | 16 | 24 | 32 | 40 | 48 | 56 | 64)) => return format!("Unsigned{bits}"),
         Type::Boolean => "Boolean",
-        Type::Integer(8) => "Integer8",
-        Type::Integer(16) => "Integer16",
-        Type::Integer(24) => "Integer24",
-        Type::Integer(32) => "Integer32",
-        Type::Integer(40) => "Integer40",
-        Type::Integer(48) => "Integer48",
-        Type::Integer(56) => "Integer56",
-        Type::Integer(64) => "Integer64",
-        Type::Unsigned(8) => "Unsigned8",
-        Type::Unsigned(16) => "Unsigned16",
-        Type::Unsigned(24) => "Unsigned24",
-        Type::Unsigned(32) => "Unsigned32",
-        Type::Unsigned(40) => "Unsigned40",
-        Type::Unsigned(48) => "Unsigned48",
-        Type::Unsigned(56) => "Unsigned56",
-        Type::Unsigned(64) => "Unsigned64",
         Type::Real32 => "Real32",
         Type::Real64 => "Real64",
         Type::VisibleString(_) => "VisibleString",

@@ -26,14 +26,8 @@ impl ValueType {
         let odd = |name| ValueType::Odd { name, range: ty.integer_range().unwrap_or((0, 0)) };
         match ty {
             Type::Boolean => ValueType::Native { name: "bool", range: None, real: 0 },
-            Type::Integer(8) => integer("i8"),
-            Type::Integer(16) => integer("i16"),
-            Type::Integer(32) => integer("i32"),
-            Type::Integer(64) => integer("i64"),
-            Type::Unsigned(8) => integer("u8"),
-            Type::Unsigned(16) => integer("u16"),
-            Type::Unsigned(32) => integer("u32"),
-            Type::Unsigned(64) => integer("u64"),
+            Type::Integer(bits @ (8 | 16 | 32 | 64)) => integer(native(true, bits.into())),
+            Type::Unsigned(bits @ (8 | 16 | 32 | 64)) => integer(native(false, bits.into())),
             Type::Integer(24) => odd("rt::Int<24>"),
             Type::Integer(40) => odd("rt::Int<40>"),
             Type::Integer(48) => odd("rt::Int<48>"),
@@ -152,26 +146,17 @@ impl ValueType {
     /// Returns the Rust expression of a range (`rt::Range`). Integer limits are clamped to the range of the type. Contradictory
     /// limits, and limits of a type that is not a number, become `Range::Full`.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> Doc) -> Doc {
-        const FULL: &str = "rt::Range::Full";
         if let Some(list) = self.only(limits, wrap) {
             return list;
         }
-        if limits.is_empty() {
-            return Doc::from(FULL);
-        }
-        let (low, high) = match self.integers() {
-            Some(range) => match self.integer_limits(limits, range) {
-                Some(limits) => limits,
-                None => return Doc::from(FULL),
-            },
-            None if self.is_real() => match self.real_limits(limits) {
-                Some(limits) => limits,
-                None => return Doc::from(FULL),
-            },
-            None => return Doc::from(FULL),
+        let limits = match self.integers() {
+            Some(range) => self.integer_limits(limits, range),
+            None if self.is_real() => self.real_limits(limits),
+            None => None,
         };
+        let (low, high) = limits.unwrap_or_default();
         match (low.map(wrap), high.map(wrap)) {
-            (None, None) => Doc::from(FULL),
+            (None, None) => Doc::from("rt::Range::Full"),
             (Some(low), None) => call!("rt::Range::From", low),
             (None, Some(high)) => call!("rt::Range::To", high),
             (Some(low), Some(high)) => call!("rt::Range::Between", low, high),
@@ -244,6 +229,11 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
         (true, ..=32) => "i32",
         (true, _) => "i64",
     }
+}
+
+/// Returns the number of bits of a primitive integer.
+pub(super) fn native_bits(native: &str) -> u32 {
+    native[1..].parse().unwrap_or(64)
 }
 
 /// Formats a number as a Rust literal. Unsigned numbers above 0xFFFF are hexadecimal, because most of them are bit

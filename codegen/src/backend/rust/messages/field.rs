@@ -8,7 +8,7 @@ use crate::backend::rust::docs::{self, WORDS};
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::DocModule;
 use crate::backend::rust::quantity;
-use crate::backend::rust::value_type::{native, ValueType};
+use crate::backend::rust::value_type::{native, native_bits, ValueType};
 use crate::backend::rust::variant;
 use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
@@ -125,7 +125,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
         // needs a range check.
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
-            let width: u32 = native[1..].parse().unwrap_or(64);
+            let width = native_bits(native);
             let local = local(position);
             let decode = match (signed, native) {
                 (true, _) => format!("({local} << {0}) as {native} >> {0}", width - bits),

@@ -1,11 +1,11 @@
 //! The elements of a file for which code is generated, with their names: device access points, and the modules and
 //! submodules that fit into them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::values::Values;
 use super::RustOptions;
-use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, SubmoduleId, SubmoduleUse, Type};
+use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, Type};
 use crate::names::{self, Case, NameRequest};
 
 /// Reserved names at the top level of the output.
@@ -64,18 +64,9 @@ fn access_points(catalog: &Catalog) -> Vec<AccessPoint<'_>> {
 
 fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTreeMap<u32, (&'a Module, String)> {
     let uses = access_points.iter().flat_map(|point| &point.device.modules);
-    let mut positions: Vec<u32> = uses.map(|usage| usage.module.0).collect();
-    positions.sort_unstable();
-    positions.dedup();
-    let found: Vec<(u32, &Module)> =
-        positions.into_iter().filter_map(|at| Some((at, catalog.modules.get(at as usize)?))).collect();
-    let name_requests = found.iter().map(|(at, module)| NameRequest {
-        name: &module.name,
-        fallback: format!("module {:08x}", module.number),
-        suffix: identifier(&module.id, module.number, *at as usize),
-    });
-    let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
-    found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names::escaped(&name)))).collect()
+    named(&catalog.modules, uses.map(|usage| usage.module.0), "module", |module| {
+        (&module.name, &module.id, module.number)
+    })
 }
 
 fn submodules<'a>(
@@ -85,18 +76,27 @@ fn submodules<'a>(
 ) -> BTreeMap<u32, (&'a Submodule, String)> {
     let built_in = access_points.iter().flat_map(|point| &point.device.submodules);
     let uses = built_in.chain(modules.values().flat_map(|(module, _)| &module.submodules));
-    let mut positions: Vec<u32> = uses.map(|SubmoduleUse { submodule: SubmoduleId(at), .. }| *at).collect();
-    positions.sort_unstable();
-    positions.dedup();
-    let found: Vec<(u32, &Submodule)> =
-        positions.into_iter().filter_map(|at| Some((at, catalog.submodules.get(at as usize)?))).collect();
-    let name_requests = found.iter().map(|(at, submodule)| NameRequest {
-        name: &submodule.name,
-        fallback: format!("submodule {:08x}", submodule.ident),
-        suffix: identifier(&submodule.id, submodule.ident, *at as usize),
+    named(&catalog.submodules, uses.map(|usage| usage.submodule.0), "submodule", |submodule| {
+        (&submodule.name, &submodule.id, submodule.ident)
+    })
+}
+
+/// Returns the elements at these positions with their Rust names, keyed by position. `identity` returns the name, ID and
+/// ident number of an element.
+fn named<'a, T>(
+    all: &'a [T],
+    positions: impl Iterator<Item = u32>,
+    kind: &str,
+    identity: impl Fn(&'a T) -> (&'a str, &'a str, u32),
+) -> BTreeMap<u32, (&'a T, String)> {
+    let positions: BTreeSet<u32> = positions.collect();
+    let found = positions.iter().filter_map(|at| Some((*at, all.get(*at as usize)?)));
+    let name_requests = found.clone().map(|(at, element)| {
+        let (name, id, ident) = identity(element);
+        NameRequest { name, fallback: format!("{kind} {ident:08x}"), suffix: identifier(id, ident, at as usize) }
     });
     let names = names::unique(name_requests, &["self", "super", "crate"], Case::Snake);
-    found.into_iter().zip(names).map(|((at, submodule), name)| (at, (submodule, names::escaped(&name)))).collect()
+    found.zip(names).map(|((at, element), name)| (at, (element, names::escaped(&name)))).collect()
 }
 
 /// Returns the suffix that distinguishes elements with the same name. The suffix consists of the letters and digits of

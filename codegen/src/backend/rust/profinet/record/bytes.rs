@@ -100,8 +100,8 @@ pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> Doc {
     }
     if field.is_real() {
         return Doc::from(match position.bits {
-            32 => real32(f32::from_bits(bits as u32)),
-            _ => real64(f64::from_bits(bits)),
+            32 => real(f32::from_bits(bits as u32).into(), 32),
+            _ => real(f64::from_bits(bits), 64),
         });
     }
     let Some(range) = field.enumeration.map_or_else(|| field.range(), Enumeration::range) else {
@@ -128,21 +128,12 @@ fn enumeration_value(enumeration: &Enumeration, value: i128) -> Doc {
     }
 }
 
-fn real32(value: f32) -> String {
-    match literal::real(f64::from(value), 32) {
+fn real(value: f64, bits: u32) -> String {
+    match literal::real(value, bits) {
         Some(literal) => literal,
-        None if value.is_nan() => "f32::NAN".to_owned(),
-        None if value > 0.0 => "f32::INFINITY".to_owned(),
-        None => "f32::NEG_INFINITY".to_owned(),
-    }
-}
-
-fn real64(value: f64) -> String {
-    match literal::real(value, 64) {
-        Some(literal) => literal,
-        None if value.is_nan() => "f64::NAN".to_owned(),
-        None if value > 0.0 => "f64::INFINITY".to_owned(),
-        None => "f64::NEG_INFINITY".to_owned(),
+        None if value.is_nan() => format!("f{bits}::NAN"),
+        None if value > 0.0 => format!("f{bits}::INFINITY"),
+        None => format!("f{bits}::NEG_INFINITY"),
     }
 }
 
