@@ -441,7 +441,7 @@ impl Fields<'_, '_> {
             false => format!("{bits}: {}", docs::sentence(&docs::escape(&entry.name))),
         }];
         sentences.extend(marks(entry));
-        docs::words(entry.documentation.as_deref(), &mut sentences);
+        sentences.extend(WORDS.description(entry.documentation.as_deref()));
         if let Some(access) = entry.access {
             sentences.push(format!("Access rights: {}.", crate::facts::words::access_name(access)));
         }

@@ -46,26 +46,21 @@ fn model(
     options: &RustOptions,
 ) -> CodeTableModel {
     let manual = &context.manual;
+    let documentation = table.documentation.as_deref();
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
-    let text = table.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    let text = documentation.map_or("", |documentation| documentation.text.as_str());
     if !text.is_empty() {
-        docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
+        docs.push(docs::sentence(&docs::escape(text)));
     }
-    docs.extend(
-        WORDS
-            .manual_entry(manual, "", table.documentation.as_deref(), &[])
-            .into_iter()
-            .flat_map(|text| [String::new(), text]),
-    );
-    let origin = WORDS.defined_by(table.stated_by.as_deref(), table.documentation.as_deref());
-    docs.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::add_doubts(&table.doubts, manual, &mut docs);
+    docs.extend(WORDS.manual_entry(manual, "", documentation, &[]));
+    docs.extend(WORDS.defined_by(table.stated_by.as_deref(), documentation));
+    docs.extend(docs::doubts(&table.doubts, manual));
     if !table.buses.is_empty() {
-        docs.extend([String::new(), format!("These codes occur on {}.", bus_names(table.buses))]);
+        docs.push(format!("These codes occur on {}.", bus_names(table.buses)));
     }
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
-        docs.extend([String::new(), format!("Additional columns: {}.", columns.join(", "))]);
+        docs.push(format!("Additional columns: {}.", columns.join(", ")));
     }
     let rows = table.rows.iter().filter_map(|code_row| row(code_row, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|model| CodeTypeModel { name: type_name, ..model });
@@ -77,10 +72,11 @@ fn model(
     };
     let static_link = link(&name, "static", ty.as_ref().map_or("", |model| model.name.as_str()));
     if let Some(model) = &ty {
-        docs.extend([String::new(), format!("The codes have the type {}.", link(&model.name, "enum", &name))]);
+        docs.push(format!("The codes have the type {}.", link(&model.name, "enum", &name)));
     }
     let has_real = table.rows.iter().flat_map(|row| &row.cells).any(|cell| matches!(cell, Value::Real(_)));
     let is_of_profile = is_of_profile(table.stated_by.as_deref());
+    let docs = docs::paragraphs(docs);
     CodeTableModel { name, is_of_profile, link: static_link, docs, rows, has_real, ty }
 }
 

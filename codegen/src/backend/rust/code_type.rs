@@ -155,15 +155,11 @@ fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVarian
     let codes = docs::escape(&row.printed_code());
     let title = docs::escape(&row.name);
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
-    let mut sentences = Vec::new();
-    docs::words(row.documentation.as_deref(), &mut sentences);
+    let mut sentences = WORDS.description(row.documentation.as_deref());
     sentences.extend(row.availability.as_ref().map(|availability| WORDS.availability(availability)));
     sentences.extend(WORDS.manual_entry(manual, "", row.documentation.as_deref(), &row.names));
     sentences.extend(WORDS.defined_by(row.stated_by.as_deref(), row.documentation.as_deref()));
-    for sentence in sentences {
-        text.push(' ');
-        text.push_str(&sentence);
-    }
+    sentences.iter().for_each(|sentence| text.extend([" ", sentence]));
     CodeVariant { name: name.to_owned(), docs: text, code: (span.0 == span.1).then(|| number(span.0)) }
 }
 

@@ -60,9 +60,9 @@ pub(super) fn models(context: &Context<'_>, device: &Device, objects: &[ObjectMo
 }
 
 fn documentation(context: &Context<'_>, variant: &Variant) -> Vec<String> {
-    let mut lines = vec![docs::sentence(&docs::escape(&variant.name))];
-    docs::described(variant.documentation.as_deref(), &context.manual, &mut lines);
-    lines
+    let title = docs::sentence(&docs::escape(&variant.name));
+    let described = docs::described(variant.documentation.as_deref(), &context.manual);
+    docs::paragraphs([title].into_iter().chain(described))
 }
 
 fn model_item(context: &Context<'_>, object: &ObjectModel, model: &str) -> Option<ModelItem> {

@@ -47,7 +47,6 @@ pub(super) fn item(
     lines.push(titled(name, &facts(item, context, &words)));
     let related = context.links.related_to_constant(entry, type_name(context, item), doc_module);
     lines.extend(Some(related).filter(|line| !line.is_empty()));
-    documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
     paragraphs.extend(WORDS.access(item));
     if let Type::Named(TypeId(id)) = item.ty {
@@ -78,9 +77,8 @@ pub(super) fn item(
     let chapter = chapter.map(|chapter| format!("Chapter: {}", sentence(&escape(chapter))));
     paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
     paragraphs.extend(doubts(&item.doubts, &context.manual));
-    for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
-        lines.extend([String::new(), paragraph]);
-    }
+    let paragraphs = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
+    lines.extend(separated(documentation(item).into_iter().chain(paragraphs)));
     lines
 }
 
@@ -95,9 +93,7 @@ pub(super) fn method(
     let item = entry.item;
     let link = links_from(entry, context, doc_module);
     let words = linked(&link);
-    let mut description = Vec::new();
-    documentation(item, &mut description);
-    let mut lines: Vec<String> = description.into_iter().skip(1).collect();
+    let mut lines = paragraphs(documentation(item));
     let facts = facts(item, context, &words);
     if lines.is_empty() && !name.trim().is_empty() {
         lines.extend([sentence(&escape(name.trim())), String::new(), facts]);
@@ -110,7 +106,7 @@ pub(super) fn method(
     let storage = item.behavior.as_ref().and_then(|behavior| words.storage(&behavior.storage));
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
-    add_doubts(&item.doubts, &context.manual, &mut lines);
+    lines.extend(separated(doubts(&item.doubts, &context.manual)));
     lines
 }
 
@@ -145,47 +141,40 @@ pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: Do
     linked(&|id, name| context.link_to(id, name, doc_module)).holds(condition)
 }
 
-/// Adds the text of an element's documentation to `sentences`.
-pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
-    sentences.extend(WORDS.description(documentation));
+/// Returns the lines of a doc comment, in which empty lines separate the paragraphs.
+pub(super) fn paragraphs(paragraphs: impl IntoIterator<Item = String>) -> Vec<String> {
+    separated(paragraphs).skip(1).collect()
 }
 
-/// Adds the documentation of an element and its citation as separate paragraphs.
-pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
-    let mut sentences = Vec::new();
-    words(documentation, &mut sentences);
-    sentences.extend(WORDS.manual_entry(manual, "", documentation, &[]));
-    for sentence in sentences {
-        lines.extend([String::new(), sentence]);
-    }
+/// Returns the paragraphs, with an empty line before each of them.
+fn separated(paragraphs: impl IntoIterator<Item = String>) -> impl Iterator<Item = String> {
+    paragraphs.into_iter().flat_map(|paragraph| [String::new(), paragraph])
+}
+
+/// Returns the documentation of an element and its citation.
+pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual) -> Vec<String> {
+    let citation = WORDS.manual_entry(manual, "", documentation, &[]);
+    WORDS.description(documentation).into_iter().chain(citation).collect()
 }
 
 /// Returns sentences about ambiguities in the manual. The most severe ambiguity comes first.
-fn doubts(list: &[Doubt], manual: &Manual) -> Vec<String> {
+pub(super) fn doubts(list: &[Doubt], manual: &Manual) -> Vec<String> {
     let mut list: Vec<&Doubt> = list.iter().collect();
     list.sort_by_key(|doubt| doubt.severity);
     list.into_iter().map(|doubt| WORDS.doubt(manual, doubt)).collect()
-}
-
-/// Adds the ambiguities of an element, each as a paragraph.
-pub(super) fn add_doubts(list: &[Doubt], manual: &Manual, lines: &mut Vec<String>) {
-    lines.extend(doubts(list, manual).into_iter().flat_map(|doubt| [String::new(), doubt]));
 }
 
 /// Returns the first lines of the documentation of the type at `position`: name, description, origin, ambiguities, and
 /// `users`, a sentence about the items that use the type.
 pub(super) fn of_type(context: &Context<'_>, position: u32, users: &str) -> Vec<String> {
     let Some(definition) = context.types.get(position as usize) else { return Vec::new() };
+    let documentation = definition.documentation.as_deref();
     let mut lines = vec![sentence(&escape(&definition.name))];
-    described(definition.documentation.as_deref(), &context.manual, &mut lines);
-    if let Some(origin) = WORDS.defined_by(definition.stated_by.as_deref(), definition.documentation.as_deref()) {
-        lines.extend([String::new(), origin]);
-    }
-    add_doubts(&definition.doubts, &context.manual, &mut lines);
-    if !users.is_empty() {
-        lines.extend([String::new(), users.to_owned()]);
-    }
-    lines
+    lines.extend(described(documentation, &context.manual));
+    lines.extend(WORDS.defined_by(definition.stated_by.as_deref(), documentation));
+    lines.extend(doubts(&definition.doubts, &context.manual));
+    lines.extend(Some(users.to_owned()).filter(|users| !users.is_empty()));
+    paragraphs(lines)
 }
 
 fn facts(item: &Item, context: &Context<'_>, words: &Words<'_>) -> String {
@@ -220,17 +209,12 @@ pub(super) fn limits(item: &Item) -> Option<String> {
     WORDS.limits(&item.limits, Physical::of(item.quantity.as_deref()).as_ref())
 }
 
-fn documentation(item: &Item, lines: &mut Vec<String>) {
+fn documentation(item: &Item) -> Vec<String> {
     let denotation = item.configured.as_ref().and_then(|configured| configured.denotation.as_ref());
-    if let Some(denotation) = denotation {
-        lines.push(String::new());
-        lines.push(format!("Denotation: {}", sentence(&escape(denotation))));
-    }
-    let Some(documentation) = &item.documentation else { return };
-    for paragraph in documentation.text.lines().filter(|line| !line.trim().is_empty()) {
-        lines.push(String::new());
-        lines.push(sentence(&escape(paragraph)));
-    }
+    let denotation = denotation.map(|denotation| format!("Denotation: {}", sentence(&escape(denotation))));
+    let lines = item.documentation.iter().flat_map(|documentation| documentation.text.lines());
+    let lines = lines.filter(|line| !line.trim().is_empty()).map(|line| sentence(&escape(line)));
+    denotation.into_iter().chain(lines).collect()
 }
 
 #[cfg(test)]

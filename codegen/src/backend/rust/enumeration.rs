@@ -128,10 +128,7 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
         let title = docs::escape(&value.name);
         let mut docs =
             if title.is_empty() { format!("{number}.") } else { format!("{number}: {}", docs::sentence(&title)) };
-        for more in further_facts(value, context) {
-            docs.push(' ');
-            docs.push_str(&more);
-        }
+        further_facts(value, context).iter().for_each(|more| docs.extend([" ", more]));
         VariantModel { name, docs, value: number, title: literal::string(&value.name) }
     };
     values.iter().zip(names).map(variant).collect()
@@ -140,9 +137,8 @@ fn variants(values: &[&EnumValue], context: &Context<'_>) -> Vec<VariantModel> {
 /// Returns the sentences that follow the name of a value: reserved or vendor-specific, description, condition,
 /// availability and citation.
 fn further_facts(value: &EnumValue, context: &Context<'_>) -> Vec<String> {
-    let mut sentences = Vec::new();
-    sentences.extend(zone(value).map(str::to_owned));
-    docs::words(value.documentation.as_deref(), &mut sentences);
+    let mut sentences: Vec<String> = zone(value).map(str::to_owned).into_iter().collect();
+    sentences.extend(WORDS.description(value.documentation.as_deref()));
     if let Some(condition) = &value.when {
         sentences
             .push(format!("This value is valid only while {}.", docs::holds(condition, context, DocModule::TYPES)));

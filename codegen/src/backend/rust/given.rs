@@ -42,13 +42,10 @@ pub(super) fn model(context: &Context<'_>, device: &Device, options: &RustOption
         Some(format!("self.{}", names::escaped(name)))
     };
     let numbers = device.given.iter().zip(&names).map(|(number, name)| {
-        let mut lines = vec![format!("{}{}.", docs::escape(&number.name), in_unit(&number.unit))];
-        let mut sentences = Vec::new();
-        docs::words(number.documentation.as_deref(), &mut sentences);
-        sentences.extend(WORDS.manual_entry(&context.manual, "", number.documentation.as_deref(), &[]));
+        let mut sentences = vec![format!("{}{}.", docs::escape(&number.name), in_unit(&number.unit))];
+        sentences.extend(docs::described(number.documentation.as_deref(), &context.manual));
         sentences.extend(number.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
-        lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
-        NumberModel { name: names::escaped(name), docs: lines }
+        NumberModel { name: names::escaped(name), docs: docs::paragraphs(sentences) }
     });
     let numbers: Vec<NumberModel> = numbers.collect();
     let units = units(device, &field);

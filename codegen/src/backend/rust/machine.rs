@@ -185,10 +185,10 @@ fn documentation(
         }
     };
     let mut lines = vec![format!("{noun} of {}{item}.", docs::escape(&machine.name))];
-    docs::described(machine.documentation.as_deref(), &context.manual, &mut lines);
-    let origin = docs::WORDS.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref());
-    lines.extend(origin.into_iter().flat_map(|text| [String::new(), text]));
-    docs::add_doubts(&machine.doubts, &context.manual, &mut lines);
+    lines.extend(docs::described(machine.documentation.as_deref(), &context.manual));
+    lines.extend(docs::WORDS.defined_by(machine.stated_by.as_deref(), machine.documentation.as_deref()));
+    lines.extend(docs::doubts(&machine.doubts, &context.manual));
+    let mut lines = docs::paragraphs(lines);
     let row = |pattern: &PatternModel| {
         [format!("[`{0}`](Self::{0})", pattern.name), format!("`{}`", pattern.bits), pattern.meaning.clone()]
     };

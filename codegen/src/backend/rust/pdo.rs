@@ -121,21 +121,15 @@ fn model(context: &Context<'_>, named: &NamedPdo<'_>, options: &RustOptions) -> 
 
 /// Returns the documentation of a PDO.
 fn documentation(context: &Context<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
-    let mut lines = vec![title(context, pdo)];
     let mut facts = vec![format!("Mapping object {}, {} bits", hex16(pdo.mapping_index), pdo.bits())];
     if let Some(communication) = &pdo.communication {
         facts.extend(communication.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
         facts.extend(communication.transmission_type.map(|ty| format!("transmission type {ty}")));
     }
-    let mut sentences = vec![docs::sentence(&facts.join(", "))];
-    docs::words(pdo.documentation.as_deref(), &mut sentences);
-    sentences.extend(WORDS.manual_entry(&context.manual, "", pdo.documentation.as_deref(), &[]));
+    let mut sentences = vec![title(context, pdo), docs::sentence(&facts.join(", "))];
+    sentences.extend(docs::described(pdo.documentation.as_deref(), &context.manual));
     sentences.extend(pdo.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
-    for sentence in sentences {
-        lines.extend([String::new(), sentence]);
-    }
-    lines.extend(table(pdo, fields));
-    lines
+    docs::paragraphs(sentences).into_iter().chain(table(pdo, fields)).collect()
 }
 
 /// Returns the COB-ID of a PDO in the usual notation.

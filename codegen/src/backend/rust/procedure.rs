@@ -39,16 +39,14 @@ pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<ProcedureMod
 }
 
 fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {
-    let mut sentences = Vec::new();
-    docs::words(procedure.documentation.as_deref(), &mut sentences);
+    let mut sentences = WORDS.description(procedure.documentation.as_deref());
     if sentences.is_empty() {
         sentences.push(docs::sentence(&docs::escape(&procedure.name)));
     }
     sentences.extend(WORDS.manual_entry(&context.manual, "", procedure.documentation.as_deref(), &procedure.names));
-    let mut lines: Vec<String> = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]).collect();
-    docs::add_doubts(&procedure.doubts, &context.manual, &mut lines);
+    sentences.extend(docs::doubts(&procedure.doubts, &context.manual));
     let rows: Vec<[String; 2]> = procedure.steps.iter().filter_map(|step| row(context, step)).collect();
-    lines.into_iter().skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
+    docs::paragraphs(sentences).into_iter().chain(doc_table::table(["Item", "Value"], &rows)).collect()
 }
 
 /// Returns the cells of a table row: the item and the value that is written. Returns `None` if the step does not write

@@ -213,17 +213,13 @@ fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> 
     facts.push(base.to_string());
     let facts = facts.join(", ");
     let name = docs::escape(&item.name);
-    let mut lines = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
-    let mut sentences = Vec::new();
-    docs::words(item.documentation.as_deref(), &mut sentences);
+    let mut sentences = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
+    sentences.extend(WORDS.description(item.documentation.as_deref()));
     let notes = item.quantity.iter().flat_map(|quantity| docs::WORDS.notes(quantity));
     sentences.extend(notes.filter(|note| !note.is_empty()));
     sentences.extend(WORDS.manual_entry(&context.manual, "", item.documentation.as_deref(), &item.names));
     sentences.extend(item.doubts.iter().map(|doubt| WORDS.doubt(&context.manual, doubt)));
-    for sentence in sentences {
-        lines.extend([String::new(), sentence]);
-    }
-    lines
+    docs::paragraphs(sentences)
 }
 
 impl Field {

@@ -35,9 +35,9 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
 
 /// Returns the documentation of the framing constant.
 pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
-    let mut lines = vec!["Framing of messages: delimiters, escape bytes and checksum.".to_owned()];
-    docs::described(framing.documentation.as_deref(), &context.manual, &mut lines);
-    lines
+    let title = "Framing of messages: delimiters, escape bytes and checksum.".to_owned();
+    let described = docs::described(framing.documentation.as_deref(), &context.manual);
+    docs::paragraphs([title].into_iter().chain(described))
 }
 
 fn check(framing: &Framing) -> Option<String> {

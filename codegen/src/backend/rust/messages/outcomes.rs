@@ -104,20 +104,18 @@ fn documentation(
     row: &CommandOutcomes,
     link: &dyn Fn(&StateRef) -> String,
 ) -> Vec<String> {
-    let mut lines = vec![format!(
-        "Reaction to the command in each state of the state machine \"{}\".",
-        docs::escape(&machine.name)
-    )];
-    docs::described(row.documentation.as_deref(), &context.manual, &mut lines);
+    let machine = docs::escape(&machine.name);
+    let title = format!("Reaction to the command in each state of the state machine \"{machine}\".");
+    let described = docs::described(row.documentation.as_deref(), &context.manual);
+    let mut lines = docs::paragraphs([title].into_iter().chain(described));
     let one = |outcome: &Outcome| match outcome {
         Outcome::Unchanged => "state unchanged".to_owned(),
         Outcome::Refused => "refused".to_owned(),
         Outcome::States(to) => to.iter().map(link).collect::<Vec<_>>().join(", then "),
     };
     let cell = |cell: &StateOutcome| {
-        let mut words = Vec::new();
-        docs::words(cell.documentation.as_deref(), &mut words);
-        [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), words.join(" ")]
+        let note = docs::WORDS.description(cell.documentation.as_deref());
+        [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), note.join(" ")]
     };
     // States with the same effect and the same note share a row of the documentation table.
     let mut rows: Vec<[String; 3]> = Vec::new();

@@ -273,9 +273,7 @@ impl Maker<'_, '_> {
 
     /// Returns the documentation of a message. Links are relative to `doc_module`.
     fn documentation(&self, message: &Message, doc_module: DocModule<'_>) -> Vec<String> {
-        let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
-        let mut sentences = Vec::new();
-        docs::words(message.documentation.as_deref(), &mut sentences);
+        let mut sentences = WORDS.description(message.documentation.as_deref());
         sentences.extend(completion::sentence(self.context, message, doc_module));
         if !message.accepted_in.is_empty() {
             // Only the documentation of the message links to states. The documentation of the method links to the
@@ -303,19 +301,14 @@ impl Maker<'_, '_> {
             sentences.push("The message also has this meaning after power-on.".to_owned());
         }
         let link = |id, name: &str| self.context.link_to(id, name, doc_module);
-        sentences
-            .extend(message.availability.as_ref().map(|availability| docs::linked(&link).availability(availability)));
-        sentences.extend(WORDS.manual_entry(
-            &self.context.manual,
-            "",
-            message.documentation.as_deref(),
-            &message.names,
-        ));
+        let words = docs::linked(&link);
+        sentences.extend(message.availability.as_ref().map(|availability| words.availability(availability)));
+        let documentation = message.documentation.as_deref();
+        sentences.extend(WORDS.manual_entry(&self.context.manual, "", documentation, &message.names));
         sentences.extend(message.doubts.iter().map(|doubt| WORDS.doubt(&self.context.manual, doubt)));
-        for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
-            lines.extend([String::new(), sentence]);
-        }
-        lines
+        let title = docs::sentence(&docs::escape(&message.name));
+        let sentences = sentences.into_iter().filter(|sentence| !sentence.is_empty());
+        docs::paragraphs([title].into_iter().chain(sentences))
     }
 }
 
