@@ -34,8 +34,8 @@ pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>
     name_of(device, file, chosen, Case::Pascal)
 }
 
-/// Returns the name of the device's module.
-pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
+/// Returns the name of the module for `device`: the default name of its type in snake case.
+pub fn module_name(device: &Device, file: &FileInfo) -> String {
     name_of(device, file, None, Case::Snake)
 }
 
@@ -52,8 +52,9 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     names::escaped(&name)
 }
 
-/// Returns the module name for a file whose name without extension is `stem`. Returns `None` if `stem` has no words.
-pub(super) fn stem_name(stem: &str) -> Option<String> {
+/// Returns the name of the generated file for an input file: the words of `stem` in snake case. `stem` is the name of
+/// the input file without its extension. Returns `None` if `stem` has no words.
+pub fn stem_name(stem: &str) -> Option<String> {
     let name_request = NameRequest { name: stem, fallback: String::new(), suffix: "device".into() };
     let name = names::unique([name_request], &RESERVED_FOR_FILE, Case::Snake).remove(0);
     (!name.is_empty()).then_some(name)

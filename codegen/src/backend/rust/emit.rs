@@ -106,14 +106,3 @@ fn calls_of(context: &Context<'_>, item: &Item, handle: &str) -> Vec<String> {
 pub fn device_name(device: &Device, file: &FileInfo) -> String {
     device_names::device_name(device, file, None)
 }
-
-/// Returns the name of the module for `device`: the default name of its type in snake case.
-pub fn module_name(device: &Device, file: &FileInfo) -> String {
-    device_names::module_name(device, file)
-}
-
-/// Returns the name of the generated file for an input file: the words of `stem` in snake case. `stem` is the name of
-/// the input file without its extension. Returns `None` if `stem` has no words.
-pub fn file_name(stem: &str) -> Option<String> {
-    device_names::stem_name(stem)
-}

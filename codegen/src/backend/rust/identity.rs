@@ -1,5 +1,6 @@
 //! The identity of a device.
 
+use super::code::{Data, Doc};
 use super::docs::WORDS;
 use super::literal;
 use crate::ir::Device;
@@ -7,9 +8,9 @@ use crate::number::hex32;
 
 /// Numbers and names of a device's identity as literals, ready to be printed.
 pub(super) struct IdentityModel {
-    pub vendor_id: String,
-    pub product_code: String,
-    pub revision_number: String,
+    pub vendor_id: Doc,
+    pub product_code: Doc,
+    pub revision_number: Doc,
     pub vendor_name: String,
     pub product_name: String,
     pub order_code: String,
@@ -20,10 +21,7 @@ pub(super) struct IdentityModel {
 impl IdentityModel {
     pub(super) fn new(device: &Device) -> Self {
         let identity = &device.identity;
-        let number = |value: Option<u32>| match value {
-            Some(value) => format!("Some({})", hex32(value)),
-            None => "None".to_owned(),
-        };
+        let number = |value: Option<u32>| Data::option(value.map(hex32));
         IdentityModel {
             vendor_id: number(identity.vendor_id),
             product_code: number(identity.product_code),

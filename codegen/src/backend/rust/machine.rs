@@ -11,7 +11,7 @@ use super::enumeration::EnumerationModel;
 use super::links::DocModule;
 use super::naming::machines::NamedMachine;
 use super::options::RustOptions;
-use super::value_type;
+use super::value_type::{self, native, native_bits};
 use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
 use crate::ir::stated::is_of_profile;
@@ -331,22 +331,13 @@ fn patterns(
     let ty = context.referred(item).map(|item| item.ty);
     let position = ty.and_then(|ty| context.resolve(ty).1).map(|(position, _)| position);
     let bits = bit_fields.iter().find(|(at, _)| Some(*at) == position).map(|(_, model)| model);
-    let native = match (bits, ty.map(|ty| context.base(ty))) {
-        (Some(model), _) => model.native,
-        (None, Some(Type::Unsigned(8) | Type::Integer(8))) => "u8",
-        (None, Some(Type::Unsigned(16) | Type::Integer(16))) => "u16",
-        (None, Some(_)) => "u32",
-        (None, None) => match pattern::width(None, list) {
-            8 => "u8",
-            16 => "u16",
-            _ => "u32",
-        },
+    let width = match ty.map(|ty| context.base(ty)) {
+        Some(Type::Unsigned(bits @ (8 | 16)) | Type::Integer(bits @ (8 | 16))) => bits.into(),
+        Some(_) => 32,
+        None => pattern::width(None, list),
     };
-    let maximum: u64 = match native {
-        "u8" => u8::MAX.into(),
-        "u16" => u16::MAX.into(),
-        _ => u32::MAX.into(),
-    };
+    let native = bits.map_or_else(|| native(false, width), |model| model.native);
+    let maximum = u64::MAX >> (64 - native_bits(native).min(32));
     let is_possible = |mask: u32, value: u32| mask != 0 && u64::from(mask) <= maximum && value & !mask == 0;
     let list: Vec<(u32, &Pattern)> =
         (0..).zip(list).filter(|(_, pattern)| is_possible(pattern.mask, pattern.value)).collect();

@@ -234,6 +234,11 @@ impl Data {
         }
     }
 
+    /// Creates `Some(value)` or `None` from a value that the line can be broken in.
+    pub fn optional(value: Option<Doc>) -> Doc {
+        value.map_or_else(|| Doc::from("None"), |value| Data::call("Some", [value]))
+    }
+
     /// Creates a hexadecimal number with four digits.
     pub fn index(value: u16) -> Doc {
         Doc::from(hex16(value))

@@ -28,9 +28,9 @@ pub(super) fn device(
             ("identity", Doc::from("IDENTITY")),
             ("sync_managers", Data::slice(device.process_data.sync_managers.iter().map(sync_manager))),
             ("pdos", pdo_list(&device.process_data.pdos, pdos)),
-            ("default_pdos", Data::slice(assigned.iter().map(|assignment| Data::index(assignment.pdo.mapping_index)))),
+            ("default_pdos", Data::slice(assigned.iter().map(|(pdo, _)| Data::index(pdo.mapping_index)))),
             ("mailbox", mailbox(settings.mailbox.as_deref())),
-            ("slots", slots.map_or_else(|| Doc::from("None"), |slots| Data::call("Some", vec![slots]))),
+            ("slots", Data::optional(slots)),
         ],
     )
 }
@@ -141,7 +141,7 @@ fn mailbox(mailbox: Option<&Mailbox>) -> Doc {
     Data::fields(
         "rt::ethercat::Mailbox",
         vec![
-            ("coe", coe.map_or_else(|| Doc::from("None"), |coe| Data::call("Some", vec![coe]))),
+            ("coe", Data::optional(coe)),
             ("aoe", Doc::from((mailbox.aoe.is_some()).to_string())),
             ("eoe", Doc::from((mailbox.eoe.is_some()).to_string())),
             ("foe", Doc::from((mailbox.foe.is_some()).to_string())),
@@ -233,7 +233,7 @@ fn slot(slot: &Slot) -> Doc {
             ("fits", Data::slice(slot.fits.iter().map(fit))),
             ("default", Data::option(default)),
             ("increments", increments(slot.index_increment, slot.pdo_increment)),
-            ("group", slot.group.map_or_else(|| Doc::from("None"), |number| slot_group(number, slot))),
+            ("group", Data::optional(slot.group.map(|number| slot_group(number, slot)))),
         ],
     )
 }
@@ -245,8 +245,7 @@ fn increments(index: u16, pdo: u16) -> Doc {
 
 fn slot_group(number: u16, slot: &Slot) -> Doc {
     let group_increments = increments(slot.group_index_increment, slot.group_pdo_increment);
-    let group = Data::call("rt::ethercat::SlotGroup::new", vec![Doc::from(number.to_string()), group_increments]);
-    Data::call("Some", vec![group])
+    Data::call("rt::ethercat::SlotGroup::new", vec![Doc::from(number.to_string()), group_increments])
 }
 
 fn pdo_group(group: &ModulePdoGroup) -> Doc {

@@ -6,7 +6,7 @@ use crate::backend::rust::docs;
 use crate::backend::rust::method_names::{method_allow, unused_name};
 use crate::backend::rust::pdo::{PdoModel, PdoModels};
 use crate::collections::HashSet;
-use crate::ir::Direction;
+use crate::ir::{Direction, Pdo};
 use crate::names::{self, Case, NameRequest};
 
 /// The process image of a sync manager.
@@ -51,14 +51,14 @@ impl ImageModel {
 
 pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
     let mut images = Vec::new();
-    let mut numbers: Vec<u8> = assigned.iter().map(|assignment| assignment.sync_manager).collect();
+    let mut numbers: Vec<u8> = assigned.iter().map(|(_, sync_manager)| *sync_manager).collect();
     numbers.sort_unstable();
     numbers.dedup();
     for number in numbers {
-        let inside: Vec<&Assigned<'_>> =
-            assigned.iter().filter(|assignment| assignment.sync_manager == number).collect();
+        let inside = assigned.iter().filter(|(_, sync_manager)| *sync_manager == number).map(|(pdo, _)| *pdo);
+        let inside: Vec<&Pdo> = inside.collect();
         let Some(first) = inside.first() else { continue };
-        let kind = match first.pdo.direction {
+        let kind = match first.direction {
             Direction::Receive => "Outputs",
             Direction::Transmit => "Inputs",
         };
@@ -76,12 +76,12 @@ pub(super) fn models(pdos: &PdoModels<'_>, assigned: &[Assigned<'_>]) -> Vec<Ima
     images
 }
 
-fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &PdoModels<'_>) -> Option<ImageModel> {
+fn model(kind: &str, sync_manager: u8, inside: &[&Pdo], pdos: &PdoModels<'_>) -> Option<ImageModel> {
     let mut bit = 0u32;
     let mut placed = Vec::new();
-    for assignment in inside {
-        placed.extend(pdos.of(assignment.pdo).map(|model| (model, bit)));
-        bit = bit.checked_add(assignment.pdo.bits())?;
+    for pdo in inside {
+        placed.extend(pdos.of(pdo).map(|model| (model, bit)));
+        bit = bit.checked_add(pdo.bits())?;
     }
     let derives = placed.first()?.0.derives.clone();
     Some(ImageModel {

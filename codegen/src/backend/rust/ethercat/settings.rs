@@ -3,7 +3,6 @@
 use super::super::code::{Data, Doc};
 use super::super::literal;
 use super::super::pdo::{PdoModel, PdoModels};
-use super::assigned::assigned_by_default;
 use super::ImageModel;
 use super::{descriptor, image, startup};
 use crate::collections::HashMap;
@@ -31,7 +30,7 @@ pub(in super::super) type ModulePaths = HashMap<ModuleId, String>;
 impl EtherCatModel {
     pub(in super::super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths) -> Option<Self> {
         let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
-        let assigned = assigned_by_default(device);
+        let assigned = device.process_data.assigned_by_default();
         let pdos = PdoModels::new(pdos);
         let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
         let clocks = settings.clocks.as_ref().filter(|clocks| !clocks.modes.is_empty());

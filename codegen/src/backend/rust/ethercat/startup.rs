@@ -18,10 +18,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
         return Vec::new();
     }
     let of = |number: u8| {
-        assigned
-            .iter()
-            .filter(move |assignment| assignment.sync_manager == number)
-            .map(|assignment| assignment.pdo.mapping_index)
+        assigned.iter().filter(move |(_, sync_manager)| *sync_manager == number).map(|(pdo, _)| pdo.mapping_index)
     };
     // More than `MAX_PDO_SUBS` PDOs do not fit into the sub-indices of an assignment object.
     if device.process_data.sync_managers.iter().any(|manager| of(manager.number).count() > MAX_PDO_SUBS) {
@@ -33,7 +30,7 @@ pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &
     let managers: Vec<&SyncManager> =
         device.process_data.sync_managers.iter().filter(carries).filter(|_| coe.pdo_assign).collect();
     commands.extend(managers.iter().map(|manager| write("u8", ASSIGN + u16::from(manager.number), 0, "0")));
-    for Assigned { pdo, .. } in assigned.iter().filter(|_| coe.pdo_config) {
+    for (pdo, _) in assigned.iter().filter(|_| coe.pdo_config) {
         let fits = pdo.entries.len() <= MAX_PDO_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
         if pdo.fixed || !fits || !pdo.is_mapping_known() {
             continue;

@@ -19,12 +19,12 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
     let escape = |escape: u8| {
         let escaped = framing.escaped.iter().copied().map(byte);
         let fields = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::slice(escaped))];
-        Data::call("Some", vec![Data::fields("rt::framing::Escape", fields)])
+        Data::fields("rt::framing::Escape", fields)
     };
     let fields = vec![
         ("start", Data::option(framing.start.map(hex8))),
         ("end", byte(framing.end?)),
-        ("escape", framing.escape.map_or_else(|| Doc::from("None"), escape)),
+        ("escape", Data::optional(framing.escape.map(escape))),
         ("check", Doc::from(format!("rt::framing::Check::{}", check(framing)?))),
         ("check_from", Doc::from(from.to_string())),
         ("is_check_escaped", Doc::from((framing.check_escaped).to_string())),

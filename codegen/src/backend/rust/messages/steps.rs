@@ -22,6 +22,14 @@ pub(in crate::backend::rust) struct Statements {
     pub uses_station: bool,
 }
 
+impl Statements {
+    /// Adds a statement for writing and one for reading.
+    fn add(&mut self, write: impl Into<Doc>, read: impl Into<Doc>) {
+        self.write.push(write.into());
+        self.read.push(read.into());
+    }
+}
+
 /// Maximum number of fixed bytes in one line of generated code.
 const LINE: usize = 8;
 
@@ -40,20 +48,19 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
         match step {
             Step::Bytes(bytes) => {
                 for part in bytes.chunks(LINE) {
-                    statements.write.push(format!("to.bytes(&{})?;", array(part)).into());
-                    statements.read.push(format!("from.constant(&{})?;", array(part)).into());
+                    let part = array(part);
+                    statements.add(format!("to.bytes(&{part})?;"), format!("from.constant(&{part})?;"));
                 }
             }
             Step::Bits { bits, value } => {
-                statements.write.push(format!("to.number({bits}, {value})?;").into());
-                statements.read.push(format!("from.fixed({bits}, {value})?;").into());
+                statements.add(format!("to.number({bits}, {value})?;"), format!("from.fixed({bits}, {value})?;"));
             }
             Step::Fixed { bits, order, value } => {
-                statements.write.push(number(*bits, order, &value.to_string()));
-                statements.read.push(match order.is_empty() {
-                    true => format!("from.fixed({bits}, {value})?;").into(),
-                    false => format!("from.fixed_in(&{order:?}, {value})?;").into(),
-                });
+                let read = match order.is_empty() {
+                    true => format!("from.fixed({bits}, {value})?;"),
+                    false => format!("from.fixed_in(&{order:?}, {value})?;"),
+                };
+                statements.add(number(*bits, order, &value.to_string()), read);
             }
             Step::Length { bits, order, from, .. } => {
                 let length_position =
@@ -66,40 +73,33 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 end.push(format!("to.length({length_position}, &{order:?}, {from})?;").into());
             }
             Step::Padding(count) => {
-                statements.write.push(format!("to.padding({count})?;").into());
-                statements.read.push(format!("from.skip({count})?;").into());
+                statements.add(format!("to.padding({count})?;"), format!("from.skip({count})?;"));
             }
-            Step::Echo { first, count } => {
+            Step::Echo { first, count } | Step::Copy { first, count } => {
                 (statements.writes_request, statements.reads_request) = (true, true);
-                statements.write.push(format!("to.echo(request, {first}, {count})?;").into());
-                statements.read.push(format!("from.echo(request, {first}, {count})?;").into());
-            }
-            Step::Copy { first, count } => {
-                (statements.writes_request, statements.reads_request) = (true, true);
-                statements.write.push(format!("to.copy(request, {first}, {count})?;").into());
-                statements.read.push(format!("from.copy(request, {first}, {count})?;").into());
+                let name = if matches!(step, Step::Echo { .. }) { "echo" } else { "copy" };
+                let [write, read] = ["to", "from"].map(|side| format!("{side}.{name}(request, {first}, {count})?;"));
+                statements.add(write, read);
             }
             Step::Same { first, count } => {
                 (statements.writes_request, statements.reads_request) = (true, true);
-                statements.write.push("let same_at = to.len();".into());
                 next = Some(format!("to.same(same_at, request, {first}, {count})?;").into());
-                statements.read.push(format!("from.clone().echo(request, {first}, {count})?;").into());
+                let read = format!("from.clone().echo(request, {first}, {count})?;");
+                statements.add("let same_at = to.len();", read);
             }
             Step::Station { bits, value } => {
                 statements.uses_station = true;
                 statements.write.extend(station(*bits, &value.item.limits));
-                statements.write.push(number(*bits, &value.byte_order, "station.into()"));
-                statements
-                    .read
-                    .push(format!("let station = from.{}? as u32;", reading(*bits, &value.byte_order)).into());
+                let read = format!("let station = from.{}? as u32;", reading(*bits, &value.byte_order));
+                statements.add(number(*bits, &value.byte_order, "station.into()"), read);
             }
             Step::Count { bits, max } => {
                 let last = u64::MAX >> (64 - (*bits).clamp(1, 64));
                 let last = max.map_or(last, |max| last.min(max.into()));
                 statements.write.push(format!("let count = self.{list}.len() as u64;").into());
                 statements.write.push(format!("rt::message::check::<u64>(count, &rt::Range::To({last}))?;").into());
-                statements.write.push(format!("to.number({bits}, count)?;").into());
-                statements.read.push(format!("let count = usize::try_from(from.number({bits})?).ok()?;").into());
+                let read = format!("let count = usize::try_from(from.number({bits})?).ok()?;");
+                statements.add(format!("to.number({bits}, count)?;"), read);
             }
             Step::List { length, is_counted, max, .. } => {
                 statements.write.extend(

@@ -1,6 +1,6 @@
 //! Prints the static table of all objects and registers.
 
-use crate::backend::rust::code::{call, line, open, Code, Doc};
+use crate::backend::rust::code::{line, open, Code, Data, Doc};
 use crate::backend::rust::model::Model;
 use crate::backend::rust::table::EntryModel;
 use crate::number::{hex16, hex8};
@@ -29,15 +29,13 @@ fn entry(code: &mut Code, entry: &EntryModel) {
         }
         None => line!(code, "object: None,"),
     }
-    let register = entry.register.as_ref().map_or(Doc::from("None"), |register| call!("Some", register));
-    line!(code, "register: ", register, ",");
+    line!(code, "register: ", Data::optional(entry.register.as_deref().map(Doc::from)), ",");
     line!(code, "name: ", entry.name, ",");
     line!(code, "data_type: rt::DataType::", entry.data_type, ",");
     line!(code, "access: rt::AccessRights::", entry.access, ",");
     line!(code, "flags: ", entry.flags, ",");
     line!(code, "initial: ", entry.initial, ",");
-    let configured = entry.configured.as_ref().map_or(Doc::from("None"), |value| call!("Some", value.clone()));
-    line!(code, "configured: ", configured, ",");
+    line!(code, "configured: ", Data::optional(entry.configured.clone()), ",");
     line!(code, "low: ", entry.low, ",");
     line!(code, "high: ", entry.high, ",");
     line!(code, "unit: ", entry.unit, ",");

@@ -175,11 +175,8 @@ pub(in crate::backend::rust) fn machine(code: &mut Code, machine: &MachineModel)
 fn machine_state(code: &mut Code, machine: &MachineModel, states: &PatternsModel, commands: &PatternsModel) {
     let state = |name: &str| Doc::from(format!("Self::{name} as u8"));
     let step = |step: &StepModel| {
-        let command = step.command.as_ref().map_or_else(
-            || Doc::from("None"),
-            |name| Data::call("Some", vec![Doc::from(format!("{}::{name}", commands.name))]),
-        );
-        Data::call("rt::Transition::new", vec![state(&step.from), state(&step.to), command])
+        let command = step.command.as_ref().map(|name| seq![commands.name, "::", name]);
+        Data::call("rt::Transition::new", vec![state(&step.from), state(&step.to), Data::optional(command)])
     };
     let transitions = Data::slice(machine.steps.iter().map(step));
     open!(code, "impl rt::MachineState for ", states.name, " {");

@@ -6,11 +6,12 @@ use super::image::{self, ImageModel};
 use super::literal;
 use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
-use crate::backend::rust::code::{call, seq, slice, Doc};
+use crate::backend::rust::code::{call, seq, slice, Data, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::identity::IdentityModel;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
 use crate::number::{hex16, hex32};
+use crate::text::count_of;
 
 /// A submodule, ready to be printed.
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {
@@ -19,8 +20,8 @@ pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub ident: u32,
     pub api: u32,
     pub title: String,
-    pub input_len: String,
-    pub output_len: String,
+    pub input_len: Doc,
+    pub output_len: Doc,
     pub provider_len: u8,
     pub consumer_len: u8,
     pub images: Vec<ImageModel>,
@@ -83,7 +84,7 @@ fn submodule_docs(
     let records = records.iter().map(|record| (record.name.as_str(), record.length));
     let safe = is_safe.then_some(("F_PARAMETERS", 0));
     let row = |(name, length): (&str, u32)| {
-        let length = if length == 0 { String::new() } else { docs::bytes(length) };
+        let length = if length == 0 { String::new() } else { count_of(length, "byte") };
         [format!("[`{name}`]({}::{name})", module.trim_start_matches("r#")), length]
     };
     let rows: Vec<[String; 2]> = images.chain(records).chain(safe).map(row).collect();
@@ -93,10 +94,9 @@ fn submodule_docs(
 
 /// Returns the expression for the length of the cyclic data, including an F-message trailer. The expression is `None`
 /// if there are no data.
-fn length(data: Option<&IoData>) -> String {
-    let Some(data) = data else { return "None".to_owned() };
-    let length = u64::from(data.image.length) + u64::from(data.image.overhead);
-    format!("Some({})", length.min(u64::from(u16::MAX)))
+fn length(data: Option<&IoData>) -> Doc {
+    let length = |data: &IoData| u64::from(data.image.length) + u64::from(data.image.overhead);
+    Data::option(data.map(|data| length(data).min(u16::MAX.into())))
 }
 
 /// Returns the records sorted by transfer sequence. Records with sequence 0 have no fixed order and come last.
@@ -161,7 +161,7 @@ pub(in crate::backend::rust) struct DapModel<'a> {
     pub submodules: Vec<Doc>,
     pub slots: Vec<String>,
     pub modules: Vec<Doc>,
-    pub max_lengths: [String; 3],
+    pub max_lengths: [Doc; 3],
     pub max_record_size: u32,
 }
 
@@ -183,9 +183,9 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
         slot,
         ident: settings.ident,
         identity: IdentityModel {
-            vendor_id: format!("Some({})", hex16(vendor_id)),
-            product_code: format!("Some({})", hex16(settings.device_id)),
-            revision_number: "None".to_owned(),
+            vendor_id: Data::option(Some(hex16(vendor_id))),
+            product_code: Data::option(Some(hex16(settings.device_id))),
+            revision_number: Doc::from("None"),
             vendor_name: literal::string(&device.identity.vendor_name),
             product_name: literal::string(&device.name),
             order_code: literal::string(&device.identity.order_code),
@@ -194,13 +194,9 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
         submodules: submodule_uses(scope, &device.submodules, outer),
         slots: numbers(&settings.slots),
         modules: module_uses(scope, &device.modules, outer),
-        max_lengths: [lengths.input, lengths.output, lengths.data].map(option),
+        max_lengths: [lengths.input, lengths.output, lengths.data].map(Data::option),
         max_record_size: settings.max_record_size,
     }
-}
-
-fn option(value: Option<u16>) -> String {
-    value.map_or_else(|| "None".to_owned(), |value| format!("Some({value})"))
 }
 
 fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<String>) {

@@ -12,6 +12,7 @@ use super::RustOptions;
 use crate::backend::rust::code::{call, slice, Doc};
 use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
 use crate::names::{self, Case, NameRequest};
+use crate::text::count_of;
 
 /// Name of the table of channel errors in the IR.
 const ERRORS: &str = "channel_diagnosis";
@@ -119,7 +120,7 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
     };
     let fields: Vec<FieldModel> = found.iter().zip(names).map(field).collect();
-    let facts = format!("user structure {} of {}", hex16(unit.identifier), docs::bytes(length));
+    let facts = format!("user structure {} of {}", hex16(unit.identifier), count_of(length, "byte"));
     let mut lines = vec![docs::titled(&unit.name, &facts)];
     docs::paragraphs(&unit.name, unit.documentation.as_deref(), &mut lines);
     lines.extend(image::table(&fields, &["decode"], |_| String::new()));

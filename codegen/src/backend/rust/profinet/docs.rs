@@ -30,11 +30,6 @@ pub(super) fn titled(title: &str, facts: &str) -> String {
     }
 }
 
-/// Returns a number of bytes with its noun: `1 byte`, `2 bytes`.
-pub(super) fn bytes(count: u32) -> String {
-    format!("{count} byte{}", if count == 1 { "" } else { "s" })
-}
-
 /// Returns a value as text for documentation.
 pub(super) fn value(value: &Value) -> String {
     const SHOWN: usize = 60;

@@ -8,6 +8,7 @@ use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::names::{self, Case, NameRequest};
+use crate::text::count_of;
 
 /// Maximum length of a field's name, without a suffix that makes the name unique. The limit keeps the generated lines
 /// that read and write the field short.
@@ -75,7 +76,7 @@ pub(super) fn model(
     let image = &data.image;
     let mut docs = vec![format!("{name}: {title}."), String::new()];
     let consistency = if data.consistent { "consistent as a whole" } else { "consistent only within each data item" };
-    let length = super::docs::bytes(image.length);
+    let length = count_of(image.length, "byte");
     docs.push(format!("{length} of user data, {consistency}{}.", trailer(image.overhead)));
     docs.extend(table(&fields, &["pack", "unpack"], |_| String::new()));
     (!fields.is_empty()).then(|| ImageModel {
@@ -109,7 +110,7 @@ pub(super) fn table<'f>(
 fn trailer(bytes: u32) -> String {
     match bytes {
         0 => String::new(),
-        length => format!(", followed by an F-message trailer of {}", docs::bytes(length)),
+        length => format!(", followed by an F-message trailer of {}", count_of(length, "byte")),
     }
 }
 

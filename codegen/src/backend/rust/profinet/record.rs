@@ -14,6 +14,7 @@ use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
 use crate::limits::MAX_RECORD_BYTES;
 use crate::names::{self, Case, NameRequest};
 use crate::number::hex16;
+use crate::text::count_of;
 use bytes::{default_bytes, has_bytes, value_of};
 use check::{check, ranges};
 
@@ -218,7 +219,7 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
 }
 
 fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
-    let facts = format!("parameter record {} of {}", hex16(record.index), docs::bytes(record.length));
+    let facts = format!("parameter record {} of {}", hex16(record.index), count_of(record.length, "byte"));
     let mut lines = vec![docs::titled(&group.name, &facts)];
     docs::paragraphs(&group.name, group.documentation.as_deref(), &mut lines);
     if let Some(bump) = record.changeable_with_bump {
