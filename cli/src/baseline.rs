@@ -11,7 +11,7 @@ use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::render::marked::{quoted, MarkedSource};
 use lexibus_codegen::diagnostics::Diagnostic;
 use lexibus_codegen::source::Source;
-use lexibus_codegen::text::printable;
+use lexibus_codegen::text::{count_of, printable};
 use serde::{Deserialize, Serialize};
 
 use super::files::put;
@@ -147,8 +147,7 @@ impl Baseline {
         }
         put(Some(&self.path), &text)?;
         let number: usize = found.map(|(_, count)| count.found).sum();
-        let diagnostics = if number == 1 { "diagnostic" } else { "diagnostics" };
-        Ok(format!("wrote {}: {number} {diagnostics}", self.path.display()))
+        Ok(format!("wrote {}: {}", self.path.display(), count_of(number, "diagnostic")))
     }
 
     /// Returns the path of a source relative to the folder of the baseline.

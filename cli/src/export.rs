@@ -165,20 +165,14 @@ fn files<'c>(
             gsdml::export(catalog, options).map(|exported| one(exported, gsdml::file_name(catalog, options)))
         }
     };
-    match files {
-        Ok(files) => Some(files),
-        Err(Refusal::Nothing) if target.many => None,
-        Err(Refusal::Nothing) => {
-            let what = format.nothing();
-            reporter.error(&format!("{}: there is nothing to export: the input describes {what}", input.display()));
-            None
-        }
-        Err(refusal @ (Refusal::Missing(_) | Refusal::TooLong { .. })) => {
-            let help = "with --set KEY=VALUE";
-            reporter.error(&format!("{}: {refusal}, {help}", input.display()));
-            None
-        }
-    }
+    let message = match files {
+        Ok(files) => return Some(files),
+        Err(Refusal::Nothing) if target.many => return None,
+        Err(Refusal::Nothing) => format!("there is nothing to export: the input describes {}", format.nothing()),
+        Err(refusal @ (Refusal::Missing(_) | Refusal::TooLong { .. })) => format!("{refusal}, with --set KEY=VALUE"),
+    };
+    reporter.error(&format!("{}: {message}", input.display()));
+    None
 }
 
 /// Returns the files of several devices. Refuses a list without files.

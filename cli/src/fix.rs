@@ -10,6 +10,7 @@ use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
 use lexibus_codegen::output::{write_if_changed, writing};
 use lexibus_codegen::source::Source;
+use lexibus_codegen::text::count_of;
 
 use super::args::Fix;
 use super::files::cannot_write;
@@ -221,13 +222,12 @@ impl Totals {
 
     fn print(&self, reporter: &Reporter, is_dry_run: bool) {
         let applied = if is_dry_run { "" } else { " applied" };
-        let files = if self.files == 1 { "file" } else { "files" };
+        let files = count_of(self.files, "file");
         let remaining = render::summary(self.errors, self.warnings);
         reporter.progress(&format!(
-            "{}{applied} in {} of {} {files}; remaining: {remaining}",
+            "{}{applied} in {} of {files}; remaining: {remaining}",
             fixes(self.fixes),
-            self.changed,
-            self.files
+            self.changed
         ));
     }
 }

@@ -2,18 +2,19 @@
 
 use std::io::Write as _;
 
-use lexibus_codegen::text::printable;
+use lexibus_codegen::text::{count_of, printable};
 use lexibus_device::backup::{backup, difference, Backup, Options};
 use lexibus_device::{Description, Network};
 
 use super::files;
+use super::network::Values;
 use super::target::Device;
 use crate::args::{BackupCommand, BackupFormat, Compare, Described};
 use crate::files::put;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &BackupCommand) -> Result<bool, Failure> {
-    let device = Device::described(&arguments.target)?;
+    let device = Device::of(&arguments.target, Values::Described)?;
     let description = &device.description;
     let include = files::addresses(&arguments.include, description)?;
     let format = format(arguments)?;
@@ -60,8 +61,7 @@ pub(super) fn compare(arguments: &Compare) -> Result<bool, Failure> {
     for difference in &differences {
         writeln!(out, "{}", printable(&difference.to_string()))?;
     }
-    let plural = if differences.len() == 1 { "" } else { "s" };
-    writeln!(out, "{} difference{plural}", differences.len())?;
+    writeln!(out, "{}", count_of(differences.len(), "difference"))?;
     Ok(differences.is_empty())
 }
 

@@ -5,6 +5,7 @@ use std::io::Write as _;
 use lexibus_codegen::text::printable;
 use lexibus_device::restore::Plan;
 
+use super::network::Values;
 use super::target::Device;
 use super::{files, question};
 use crate::args::Restore;
@@ -12,7 +13,7 @@ use crate::interrupt::Deferred;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Restore) -> Result<bool, Failure> {
-    let device = Device::described(&arguments.target)?;
+    let device = Device::of(&arguments.target, Values::Described)?;
     let description = &device.description;
     let include = files::addresses(&arguments.include, description)?;
     let saved = files::backup(&arguments.backup, description)?;

@@ -6,7 +6,7 @@ use std::time::Duration;
 use lexibus_codegen::compile::Options;
 use lexibus_codegen::number::hex32;
 use lexibus_codegen::source::Source;
-use lexibus_codegen::text::printable;
+use lexibus_codegen::text::{count_of, printable};
 use lexibus_device::scan::{scan, Fit, FoundNode};
 use lexibus_device::{Description, Network};
 use serde::Serialize;
@@ -39,7 +39,7 @@ pub(super) fn run(arguments: &Scan) -> Result<bool, Failure> {
         }
     }
     if arguments.format == ScanFormat::Text {
-        writeln!(out, "{} node{}", nodes.len(), if nodes.len() == 1 { "" } else { "s" })?;
+        writeln!(out, "{}", count_of(nodes.len(), "node"))?;
     }
     Ok(true)
 }

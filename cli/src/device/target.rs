@@ -19,19 +19,9 @@ pub(super) struct Device {
 }
 
 impl Device {
-    /// Returns the device of a target. The description has the values of the description file, even if a network file
-    /// configures other values.
-    pub(super) fn described(target: &Target) -> Result<Self, Failure> {
-        Self::of(target, Values::Described)
-    }
-
-    /// Returns the device of a target. If the target is a node of a network file, the description has the values that
-    /// the network file configures.
-    pub(super) fn configured(target: &Target) -> Result<Self, Failure> {
-        Self::of(target, Values::Configured)
-    }
-
-    fn of(target: &Target, values: Values) -> Result<Self, Failure> {
+    /// Returns the device of a target. If the target is a node of a network file, `values` selects the values in its
+    /// description. Otherwise, the description has the values of the description file.
+    pub(super) fn of(target: &Target, values: Values) -> Result<Self, Failure> {
         let timeout = Duration::from_millis(target.timeout.into());
         if let Some(node) = target.node {
             let bus = target.bus.clone().ok_or_else(no_bus)?;

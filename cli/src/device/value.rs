@@ -5,6 +5,7 @@ use std::io::Write as _;
 use lexibus_codegen::text::printable;
 use lexibus_device::Write;
 
+use super::network::Values;
 use super::question;
 use super::target::Device;
 use crate::args::{Read, WriteCommand};
@@ -12,7 +13,7 @@ use crate::interrupt::Deferred;
 use crate::{say, Failure};
 
 pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
-    let device = Device::described(&arguments.target)?;
+    let device = Device::of(&arguments.target, Values::Described)?;
     let parameters = arguments.names.iter().map(|name| device.description.find(name));
     let parameters = parameters.collect::<Result<Vec<_>, _>>().map_err(|error| Failure::Usage(error.to_string()))?;
     let mut connection = device.connect()?;
@@ -33,7 +34,7 @@ pub(super) fn read(arguments: &Read) -> Result<bool, Failure> {
 }
 
 pub(super) fn write(arguments: &WriteCommand) -> Result<bool, Failure> {
-    let device = Device::described(&arguments.target)?;
+    let device = Device::of(&arguments.target, Values::Described)?;
     let parameter = device.description.find(&arguments.name).map_err(|error| Failure::Usage(error.to_string()))?;
     let text = arguments.value.join(" ");
     let write = Write::parse(parameter, &text, Some(device.node));

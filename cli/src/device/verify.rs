@@ -3,13 +3,14 @@
 use lexibus_device::verify::{verify, Options};
 use lexibus_device::Network;
 
+use super::network::Values;
 use super::target::Device;
 use crate::args::{Verify, VerifyFormat};
 use crate::files::put;
 use crate::{say, Failure};
 
 pub(super) fn run(arguments: &Verify) -> Result<bool, Failure> {
-    let device = Device::configured(&arguments.target)?;
+    let device = Device::of(&arguments.target, Values::Configured)?;
     let description = &device.description;
     let mut connection = device.connect()?;
     let is_canopen = description.network() == Network::CanOpen;

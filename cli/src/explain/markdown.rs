@@ -1,7 +1,7 @@
 //! Writes the catalog of diagnostic codes as Markdown.
 
 use lexibus_codegen::diagnostics::codes::CODES;
-use lexibus_codegen::diagnostics::{Class, Code};
+use lexibus_codegen::diagnostics::Code;
 
 use super::example::example;
 use super::{level, strictness};
@@ -37,7 +37,7 @@ pub fn catalog() -> String {
     for (family, about) in FAMILIES {
         text += &format!("\n<a id=\"{family}\"></a>\n\n## {about}\n");
         let mut codes: Vec<&Code> = CODES.iter().copied().filter(|code| self::family(code) == family).collect();
-        codes.sort_by_key(|code| severity(code.class));
+        codes.sort_by_key(|code| code.class);
         for code in codes {
             text.push('\n');
             text += &explain(code);
@@ -58,15 +58,6 @@ pub fn explain(code: &Code) -> String {
         text += &format!("\n```text\n{example}\n```\n");
     }
     text
-}
-
-/// Returns the sort position of a class within a family. The class of errors comes first.
-fn severity(class: Class) -> u8 {
-    match class {
-        Class::Error => 0,
-        Class::Repair => 1,
-        Class::Lint => 2,
-    }
 }
 
 /// Returns the family of a code: the letters before its number.

@@ -19,52 +19,45 @@ struct Library<'l> {
     places: usize,
     /// Statements that plug modules and submodules.
     plugged: Vec<String>,
-    data: Option<&'l Data<'l>>,
+    data: Option<&'l ProfinetData>,
+    /// Names of the structs to import.
+    structs: &'static str,
 }
 
 #[derive(Template)]
 #[template(path = "crate/profinet_example.rs.txt", escape = "none")]
 struct Example<'e> {
     library: &'e str,
-    data: Option<&'e Data<'e>>,
+    data: Option<&'e ProfinetData>,
 }
 
 #[derive(Template)]
 #[template(path = "crate/profinet_support.rs.txt", escape = "none")]
 struct Support<'s> {
     library: &'s str,
-    data: Option<&'s Data<'s>>,
+    data: Option<&'s ProfinetData>,
+    /// Names of the structs to import.
+    structs: &'static str,
 }
 
 #[derive(Template)]
 #[template(path = "crate/profinet_test.rs.txt", escape = "none")]
 struct Test<'t> {
     library: &'t str,
-    data: Option<&'t Data<'t>>,
-}
-
-/// The cyclic data of a submodule.
-struct Data<'d> {
-    slot: u16,
-    subslot: u16,
-    submodule: &'d str,
-    has_inputs: bool,
-    has_outputs: bool,
-    /// Names of the structs to import.
-    structs: &'static str,
+    data: Option<&'t ProfinetData>,
 }
 
 pub(super) fn write(package: &Package, files: &mut Files) -> Result<(), Failure> {
     let program = rust::profinet_program(package.catalog)
         .ok_or_else(|| Failure::Usage("the file describes no device access point".into()))?;
     let library = package.library.as_str();
-    let data = program.data.as_ref().map(Data::new);
-    let data = data.as_ref();
+    let data = program.data.as_ref();
+    let structs = data.map_or("", structs);
     let places = program.places.next_power_of_two().max(MIN_PLACES);
     let title = doc(&package.title);
-    files.text("src/lib.rs", render(&Library { title, places, plugged: plugged(&program), data })?);
+    files.text("src/lib.rs", render(&Library { title, places, plugged: plugged(&program), data, structs })?);
     files.text("examples/simulated.rs", render(&Example { library, data })?);
-    files.text("tests/support/mod.rs", render(&Support { library, data })?);
+    files.text("tests/support/mod.rs", render(&Support { library, data, structs })?);
     files.text("tests/simulated.rs", render(&Test { library, data })?);
     Ok(())
 }
@@ -82,14 +75,11 @@ fn plugged(program: &ProfinetProgram) -> Vec<String> {
     module.into_iter().chain(submodule).collect()
 }
 
-impl<'d> Data<'d> {
-    fn new(data: &'d ProfinetData) -> Self {
-        let ProfinetData { slot, subslot, submodule, has_inputs, has_outputs } = data;
-        let structs = match (has_inputs, has_outputs) {
-            (true, true) => "{Inputs, Outputs}",
-            (true, false) => "Inputs",
-            _ => "Outputs",
-        };
-        Data { slot: *slot, subslot: *subslot, submodule, has_inputs: *has_inputs, has_outputs: *has_outputs, structs }
+/// Returns the names of the structs to import.
+fn structs(data: &ProfinetData) -> &'static str {
+    match (data.has_inputs, data.has_outputs) {
+        (true, true) => "{Inputs, Outputs}",
+        (true, false) => "Inputs",
+        _ => "Outputs",
     }
 }

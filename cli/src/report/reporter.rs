@@ -6,7 +6,7 @@ use std::io::{IsTerminal, Write};
 use lexibus_codegen::compile::Compilation;
 use lexibus_codegen::diagnostics::{render, Diagnostic, Severity};
 use lexibus_codegen::source::{FileId, Source, Span};
-use lexibus_codegen::text::printable;
+use lexibus_codegen::text::{count_of, printable};
 use lexibus_export::diagnostics::{github, json, sarif};
 use lexibus_export::Note;
 use serde::Serialize;
@@ -200,7 +200,7 @@ impl Reporter {
         }
         let is_for_people = matches!(self.format, MessageFormat::Text | MessageFormat::Github);
         if is_for_people && (self.is_result || self.errors + self.warnings > 0) {
-            let files = if self.files == 1 { "1 file" } else { &format!("{} files", self.files) };
+            let files = count_of(self.files, "file");
             let known = self.baseline.as_ref().map_or(String::new(), Baseline::summary);
             super::super::say(&format!("{files}: {}{known}", render::summary(self.errors, self.warnings)));
             self.baseline.as_ref().and_then(Baseline::obsolete).iter().for_each(|note| super::super::say(note));

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use lexibus_codegen::diagnostics::render::marked::MarkedSource;
-use lexibus_codegen::diagnostics::{Code, Diagnostic, Severity};
+use lexibus_codegen::diagnostics::{Diagnostic, Severity};
 use lexibus_codegen::source::{FileId, Source};
 use lexibus_codegen::text::printable;
 use serde::Serialize;
@@ -16,8 +16,11 @@ use crate::Failure;
 #[derive(Default)]
 pub(super) struct Statistics(BTreeMap<&'static str, Row>);
 
+/// The diagnostics with one code, as a JSON object.
+#[derive(Serialize)]
 struct Row {
-    code: &'static Code,
+    code: &'static str,
+    name: &'static str,
     severity: Severity,
     count: usize,
     files: usize,
@@ -32,17 +35,6 @@ struct Location {
     column: Option<u32>,
 }
 
-/// A row as a JSON object.
-#[derive(Serialize)]
-struct Line<'a> {
-    code: &'a str,
-    name: &'a str,
-    severity: Severity,
-    count: usize,
-    files: usize,
-    first: &'a Location,
-}
-
 impl Statistics {
     /// Adds the diagnostics of one input.
     pub(super) fn add(&mut self, diagnostics: &[Cow<Diagnostic>], sources: &[Source]) {
@@ -51,7 +43,7 @@ impl Statistics {
             let code = diagnostic.code;
             let row = self.0.entry(code.id).or_insert_with(|| {
                 let first = Location::of(diagnostic, sources);
-                Row { code, severity: diagnostic.severity, count: 0, files: 0, first }
+                Row { code: code.id, name: code.name, severity: diagnostic.severity, count: 0, files: 0, first }
             });
             row.count += diagnostic.occurrences();
             // Diagnostics are sorted by file.
@@ -71,15 +63,8 @@ impl Statistics {
     /// Returns a table with aligned columns, or an empty text if there are no diagnostics.
     pub(super) fn text(&self) -> String {
         let cells = |row: &&Row| {
-            let first = row.first.text();
-            [
-                row.count.to_string(),
-                row.files.to_string(),
-                row.code.id.to_owned(),
-                row.severity.name().to_owned(),
-                row.code.name.to_owned(),
-                first,
-            ]
+            let [code, severity, name] = [row.code, row.severity.name(), row.name].map(str::to_owned);
+            [row.count.to_string(), row.files.to_string(), code, severity, name, row.first.text()]
         };
         let rows: Vec<[String; 6]> = self.rows().iter().map(cells).collect();
         if rows.is_empty() {
@@ -98,13 +83,7 @@ impl Statistics {
 
     /// Returns one JSON object per line.
     pub(super) fn json(&self) -> Result<String, Failure> {
-        let mut text = String::new();
-        for Row { code, severity, count, files, first } in self.rows() {
-            let line =
-                Line { code: code.id, name: code.name, severity: *severity, count: *count, files: *files, first };
-            text += &json_line(&line)?;
-        }
-        Ok(text)
+        self.rows().into_iter().map(json_line).collect()
     }
 }
 

@@ -5,7 +5,7 @@
 use super::Level;
 
 /// Class of a code. The class determines whether a code is always an error, or an error in strict mode.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Class {
     /// The input cannot be used. These codes are always errors.
     Error,
