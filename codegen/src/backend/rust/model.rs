@@ -34,7 +34,7 @@ use super::procedure::{self, ProcedureModel};
 use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
-use super::table::{self, EntryModel};
+use super::table;
 use super::walk::{self, WalkModel};
 use super::window_model::{self, WindowModel};
 use crate::ir::{Device, FileInfo, Module};
@@ -104,7 +104,8 @@ pub(super) struct Model {
     pub ethercat: Option<EtherCatModel>,
     /// Value of the static `MODULE`. `None` for a device.
     pub module: Option<Doc>,
-    pub table: Option<Vec<EntryModel>>,
+    /// Rows of the static table.
+    pub table: Option<Vec<Doc>>,
     pub table_feature: Option<String>,
     /// True if the file has several devices or modules, which may re-export definitions from each other.
     pub is_one_of_several: bool,

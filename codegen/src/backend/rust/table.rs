@@ -1,6 +1,6 @@
 //! The static table of all objects and registers that clients can access.
 
-use super::code::{call, Doc};
+use super::code::{call, seq, Data, Doc};
 use super::constructor::flags;
 use super::context::Context;
 use super::item;
@@ -11,27 +11,11 @@ use super::value_type::ValueType;
 use super::variant;
 use crate::facts::encoding;
 use crate::ir::{Access, Bus, Item, Type, Value};
-
-/// A row of the static table.
-pub(super) struct EntryModel {
-    pub object: Option<ObjectAddress>,
-    /// Constructor call of the register.
-    pub register: Option<String>,
-    pub name: String,
-    pub data_type: String,
-    pub access: &'static str,
-    pub flags: &'static str,
-    pub initial: Doc,
-    /// Value that the description configures.
-    pub configured: Option<Doc>,
-    pub low: String,
-    pub high: String,
-    pub unit: String,
-}
+use crate::number::{hex16, hex8};
 
 /// Returns the rows of the static table. Registers that are not objects come first, sorted by table and address. Then
 /// come the objects, sorted by index and sub-index.
-pub(super) fn models(context: &Context<'_>) -> Vec<EntryModel> {
+pub(super) fn models(context: &Context<'_>) -> Vec<Doc> {
     let mut rows = Vec::new();
     for (_, group) in addressable(context) {
         let by_object = !group.has_entries();
@@ -52,7 +36,7 @@ type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 /// Adds the rows of an item. An item has several rows if its object addresses on CANopen and EtherCAT differ. It also
 /// has several rows if its type or access rights at the register and at the object differ. An item has no row if it has
 /// neither an object nor a register.
-fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
+fn entries(context: &Context<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, Doc)>) {
     let addresses = ItemAddresses::of(context, item);
     let [object, other] = addresses.objects();
     let (mut register, key) = (addresses.register_code(), addresses.register_key());
@@ -90,23 +74,28 @@ fn entry(
     object: Option<ObjectAddress>,
     register: Option<String>,
     form: BusForm,
-) -> EntryModel {
+) -> Doc {
     let (base, ty) = (context.base(form.ty), context.value_type(form.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let limits = variant::widest(item);
-    EntryModel {
-        object,
-        register,
-        name: literal::string(name),
-        data_type: data_type(base),
-        access: item::alias(form.access),
-        flags: flags(item),
-        initial: raw_value(item.default.as_ref(), base, ty),
-        configured: item.configured_value().map(|value| raw_value(Some(value), base, ty)),
-        low: bound(limits.low.as_ref(), base),
-        high: bound(limits.high.as_ref(), base),
-        unit: literal::string(unit),
-    }
+    let object = object.map(|(index, sub)| format!("rt::Object::new({}, {})", hex16(index), hex8(sub)));
+    let configured = item.configured_value().map(|value| raw_value(Some(value), base, ty));
+    Data::fields(
+        "rt::table::Entry",
+        vec![
+            ("object", Data::option(object)),
+            ("register", Data::optional(register.map(Doc::from))),
+            ("name", Doc::from(literal::string(name))),
+            ("data_type", seq!["rt::DataType::", data_type(base)]),
+            ("access", seq!["rt::AccessRights::", item::alias(form.access)]),
+            ("flags", Doc::from(flags(item))),
+            ("initial", raw_value(item.default.as_ref(), base, ty)),
+            ("configured", Data::optional(configured)),
+            ("low", Doc::from(bound(limits.low.as_ref(), base))),
+            ("high", Doc::from(bound(limits.high.as_ref(), base))),
+            ("unit", Doc::from(literal::string(unit))),
+        ],
+    )
 }
 
 fn data_type(ty: Type) -> String {

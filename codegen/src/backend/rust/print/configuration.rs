@@ -7,9 +7,7 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(configuration) = &model.configuration else { return };
     code.docs(&configuration.docs);
     open!(code, "pub const CONFIGURATION: rt::Configuration = rt::Configuration {");
-    for (name, settings) in &configuration.phases {
-        line!(code, name, ": ", slice(settings), ",");
-    }
+    code.values(configuration.phases.iter().map(|(name, settings)| (*name, slice(settings))));
     line!(code, "..rt::Configuration::EMPTY");
     code.close("};");
 }

@@ -6,9 +6,8 @@ mod record;
 mod values;
 
 use super::device::identity;
-use crate::backend::rust::code::{line, list, open, Code, Data, Doc};
+use crate::backend::rust::code::{line, open, Code, Data, Doc};
 use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
-use crate::number::{hex16, hex32};
 
 /// Writes the code of a file: device access points, modules, submodules, enumerations and diagnosis.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
@@ -47,24 +46,7 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
 fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
     code.docs(&access_point.docs);
     open!(code, "pub static DAP: rt::profinet::Dap = rt::profinet::Dap {");
-    line!(code, "vendor_id: ", hex16(access_point.vendor_id), ",");
-    line!(code, "device_id: ", hex16(access_point.device_id), ",");
-    line!(code, "slot: ", access_point.slot, ",");
-    open!(code, "module: rt::profinet::Module {");
-    line!(code, "ident: ", hex32(access_point.ident), ",");
-    line!(code, "name: ", access_point.identity.product_name, ",");
-    line!(code, "submodules: ", list("&[", &access_point.submodules, "]"), ",");
-    line!(code, "subslots: &[],");
-    code.close("},");
-    line!(code, "slots: ", list("&[", &access_point.slots, "]"), ",");
-    line!(code, "modules: ", list("&[", &access_point.modules, "]"), ",");
-    open!(code, "max_lengths: rt::profinet::IoLengths {");
-    let [input, output, data] = &access_point.max_lengths;
-    line!(code, "input: ", input, ",");
-    line!(code, "output: ", output, ",");
-    line!(code, "data: ", data, ",");
-    code.close("},");
-    line!(code, "max_record_size: ", access_point.max_record_size, ",");
+    code.values(access_point.values.iter().map(|(name, value)| (*name, value)));
     code.close("};");
     let documentation = "Identity of the device. The product code is the PROFINET device ID.";
     identity(code, &access_point.identity, documentation);
@@ -76,10 +58,7 @@ fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
     code.use_runtime();
     code.doc("Description of the module. A slot plan uses this constant.");
     open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
-    line!(code, "ident: ", hex32(module.ident), ",");
-    line!(code, "name: ", module.title, ",");
-    line!(code, "submodules: ", list("&[", &module.submodules, "]"), ",");
-    line!(code, "subslots: ", list("&[", &module.subslots, "]"), ",");
+    code.values(module.values.iter().map(|(name, value)| (*name, value)));
     code.close("};");
     code.close("}");
 }
@@ -93,14 +72,7 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     }
     code.doc("Description of the submodule. Modules and slot plans use this constant.");
     open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
-    line!(code, "ident: ", hex32(submodule.ident), ",");
-    line!(code, "api: ", hex16(submodule.api), ",");
-    line!(code, "name: ", submodule.title, ",");
-    line!(code, "input_len: ", submodule.input_len, ",");
-    line!(code, "output_len: ", submodule.output_len, ",");
-    line!(code, "provider_len: ", submodule.provider_len, ",");
-    line!(code, "consumer_len: ", submodule.consumer_len, ",");
-    line!(code, "records: ", list("&[", &submodule.record_list, "]"), ",");
+    code.values(submodule.values.iter().map(|(name, value)| (*name, value)));
     code.close("};");
     submodule.images.iter().for_each(|image| image::write(code, image));
     submodule.records.iter().for_each(|record| record::write(code, record));

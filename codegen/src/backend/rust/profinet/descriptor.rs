@@ -17,18 +17,11 @@ use crate::text::count_of;
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    pub ident: u32,
-    pub api: u32,
-    pub title: String,
-    pub input_len: Doc,
-    pub output_len: Doc,
-    pub provider_len: u8,
-    pub consumer_len: u8,
+    /// Fields of the static `SUBMODULE`.
+    pub values: Vec<(&'static str, Doc)>,
     pub images: Vec<ImageModel>,
     pub records: Vec<RecordModel>,
     pub f_record: Option<FRecordModel>,
-    /// Elements of the record list, sorted by transfer sequence.
-    pub record_list: Vec<Doc>,
     /// True if the type of any field or constant is an enumeration.
     pub uses_values: bool,
 }
@@ -46,14 +39,16 @@ pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name
     SubmoduleModel {
         name,
         docs: submodule_docs(submodule, name, &images, &records, f_record.is_some()),
-        ident: submodule.ident,
-        api: submodule.api,
-        title: literal::string(&submodule.name),
-        input_len: length(submodule.input.as_deref()),
-        output_len: length(submodule.output.as_deref()),
-        provider_len: submodule.status_lengths.0,
-        consumer_len: submodule.status_lengths.1,
-        record_list: record_list(&records, f_record.as_ref()),
+        values: vec![
+            ("ident", Doc::from(hex32(submodule.ident))),
+            ("api", Doc::from(hex16(submodule.api))),
+            ("name", Doc::from(literal::string(&submodule.name))),
+            ("input_len", length(submodule.input.as_deref())),
+            ("output_len", length(submodule.output.as_deref())),
+            ("provider_len", seq![submodule.status_lengths.0]),
+            ("consumer_len", seq![submodule.status_lengths.1]),
+            ("records", slice(record_list(&records, f_record.as_ref()))),
+        ],
         images,
         records,
         f_record,
@@ -121,10 +116,8 @@ fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<
 pub(in crate::backend::rust) struct ModuleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    pub ident: u32,
-    pub title: String,
-    pub submodules: Vec<Doc>,
-    pub subslots: Vec<String>,
+    /// Fields of the static `MODULE`.
+    pub values: Vec<(&'static str, Doc)>,
 }
 
 pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
@@ -134,10 +127,12 @@ pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str
     ModuleModel {
         name,
         docs,
-        ident: module.number,
-        title: literal::string(&module.name),
-        submodules: submodule_uses(scope, &module.submodules, "super::super::"),
-        subslots: numbers(&module.subslots),
+        values: vec![
+            ("ident", Doc::from(hex32(module.number))),
+            ("name", Doc::from(literal::string(&module.name))),
+            ("submodules", slice(submodule_uses(scope, &module.submodules, "super::super::"))),
+            ("subslots", slice(numbers(&module.subslots))),
+        ],
     }
 }
 
@@ -153,16 +148,9 @@ pub(in crate::backend::rust) struct DapModel<'a> {
     pub docs: Vec<String>,
     /// Heading of the device access point in generated comments.
     pub heading: String,
-    pub vendor_id: u16,
-    pub device_id: u16,
-    pub slot: u16,
-    pub ident: u32,
     pub identity: IdentityModel,
-    pub submodules: Vec<Doc>,
-    pub slots: Vec<String>,
-    pub modules: Vec<Doc>,
-    pub max_lengths: [Doc; 3],
-    pub max_record_size: u32,
+    /// Fields of the static `DAP`.
+    pub values: Vec<(&'static str, Doc)>,
 }
 
 pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>) -> DapModel<'s> {
@@ -171,31 +159,41 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
     let facts = format!("device access point {}", hex32(settings.ident));
     let mut docs = vec![docs::titled(&device.name, &facts)];
     docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
+    let product_name = literal::string(&device.name);
+    let module = vec![
+        ("ident", Doc::from(hex32(settings.ident))),
+        ("name", Doc::from(product_name.as_str())),
+        ("submodules", slice(submodule_uses(scope, &device.submodules, outer))),
+        ("subslots", Doc::from("&[]")),
+    ];
     let lengths = settings.max_lengths;
-    let vendor_id = device.identity.vendor_id.map_or(0, |id| (id & 0xFFFF) as u16);
-    let slot = slot(point);
+    let lengths = [("input", lengths.input), ("output", lengths.output), ("data", lengths.data)];
+    let lengths = lengths.map(|(name, length)| (name, Data::option(length)));
+    let vendor_id = hex16(device.identity.vendor_id.map_or(0, |id| id & 0xFFFF));
+    let device_id = hex16(settings.device_id);
     DapModel {
         name,
         docs,
         heading: docs::titled(&device.name, &facts),
-        vendor_id,
-        device_id: settings.device_id,
-        slot,
-        ident: settings.ident,
         identity: IdentityModel {
-            vendor_id: Data::option(Some(hex16(vendor_id))),
-            product_code: Data::option(Some(hex16(settings.device_id))),
+            vendor_id: Data::option(Some(&vendor_id)),
+            product_code: Data::option(Some(&device_id)),
             revision_number: Doc::from("None"),
             vendor_name: literal::string(&device.identity.vendor_name),
-            product_name: literal::string(&device.name),
+            product_name,
             order_code: literal::string(&device.identity.order_code),
             origins: Vec::new(),
         },
-        submodules: submodule_uses(scope, &device.submodules, outer),
-        slots: numbers(&settings.slots),
-        modules: module_uses(scope, &device.modules, outer),
-        max_lengths: [lengths.input, lengths.output, lengths.data].map(Data::option),
-        max_record_size: settings.max_record_size,
+        values: vec![
+            ("vendor_id", Doc::from(vendor_id)),
+            ("device_id", Doc::from(device_id)),
+            ("slot", seq![slot(point)]),
+            ("module", Data::fields("rt::profinet::Module", module)),
+            ("slots", slice(numbers(&settings.slots))),
+            ("modules", slice(module_uses(scope, &device.modules, outer))),
+            ("max_lengths", Data::fields("rt::profinet::IoLengths", lengths)),
+            ("max_record_size", seq![settings.max_record_size]),
+        ],
     }
 }
 

@@ -116,9 +116,7 @@ pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
     line!(code, "index: ", hex16(record.index), ",");
     line!(code, "transfer_sequence: ", record.transfer_sequence, ",");
     open!(code, "default: rt::profinet::FParameters {");
-    for (name, value) in &record.defaults {
-        line!(code, name, ": ", value, ",");
-    }
+    code.values(record.defaults.iter().map(|(name, value)| (*name, value)));
     code.close("},");
     line!(code, "limits: ", list("&[", &record.limits, "]"), ",");
     code.close("};");
