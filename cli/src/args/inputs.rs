@@ -35,7 +35,7 @@ pub(crate) struct Inputs {
     #[arg(long, value_name = "DEVICE", help_heading = INPUT)]
     pub device: Vec<DeviceFilter>,
     /// Use only this module (a name, identifier or ident number); can be repeated.
-    #[arg(long, value_name = "MODULE", value_parser = module_filter, help_heading = INPUT)]
+    #[arg(long, value_name = "MODULE", help_heading = INPUT)]
     pub module: Vec<Filter>,
     /// Use only these objects (an index or a range, such as 0x6000..0x67FF); can be repeated.
     #[arg(long, value_name = "OBJECTS", help_heading = INPUT)]
@@ -174,8 +174,4 @@ impl Inputs {
 
 pub(super) fn choice(text: &str) -> Result<(String, String), String> {
     compile::choice(text).ok_or_else(|| "expected NAME=CHOICE".to_owned())
-}
-
-fn module_filter(text: &str) -> Result<Filter, std::convert::Infallible> {
-    Ok(text.into())
 }

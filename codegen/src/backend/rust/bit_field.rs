@@ -3,8 +3,7 @@
 use super::code::{call, seq, Doc};
 use super::context::Context;
 use super::doc_table;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::links::{self, DocModule};
 use super::literal;
 use super::method_names::{method_allow, unused_name};
@@ -28,7 +27,7 @@ pub(super) struct BitFieldModel {
     /// Data for the implementations of `Debug` and the number formats, if the options request `Debug`.
     pub debug: Option<DebugModel>,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
-    pub base: &'static str,
+    pub base: String,
     /// Primitive integer that holds the raw value.
     pub native: &'static str,
     /// Initial value, in which only the reserved bits that must be 1 are set.
@@ -192,7 +191,7 @@ pub(super) fn model(
         docs,
         derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives_of_integers(),
         debug: debug(name, native, &fields, options),
-        base,
+        base: base.clone(),
         native,
         initial: hexadecimal_or_zero(ones),
         cut: if mask(bits) == mask(generator.native_bits()) {

@@ -2,7 +2,7 @@
 
 use super::code::Doc;
 use super::constants::{accesses, bound, Constant, Constants};
-use super::method_names::{unused_name, RESERVED};
+use super::method_names::{reserved, unused_name};
 use super::walk::WalkModel;
 use crate::facts::words::enumerated;
 
@@ -103,7 +103,7 @@ impl Cia402Model {
         }
         let names = constants.objects.iter().map(|object| object.name.as_str());
         let walks = walks.iter().map(|walk| walk.method.as_str());
-        let used: Vec<&str> = names.chain(walks).chain(RESERVED).collect();
+        let used: Vec<&str> = names.chain(walks).chain(reserved()).collect();
         let method = unused_name(|name| used.contains(&name.as_str()), "cia402".to_owned());
         Some(Self { method, docs: documentation(&operations), traits })
     }

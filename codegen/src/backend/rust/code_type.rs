@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::doc_table;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::options::RustOptions;
 use crate::collections::HashSet;
 use crate::ir::{CodeRow, CodeTable, Manual};

@@ -5,8 +5,7 @@ use crate::number::hex;
 
 use super::context::Context;
 use super::doc_table;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::links::DocModule;
 use super::literal;
 use super::naming::types::NamedType;
@@ -25,7 +24,7 @@ pub(super) struct EnumerationModel {
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
-    pub base: &'static str,
+    pub base: String,
     /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
     /// Mask of the value's bits if the enumeration has no variant `Unknown`. `None` otherwise.
@@ -84,7 +83,7 @@ pub(super) fn model(
         derives: options.derives_without_equality(),
         texts: RustOptions::gate(&options.debug),
         equality: RustOptions::gate(&options.partial_eq),
-        base: named.base,
+        base: named.base.clone(),
         native: named.native,
         complete: complete.then(|| hex((1_u32 << named.bits) - 1)),
         variants,

@@ -3,7 +3,7 @@
 use super::code::{call, seq, Break, Doc};
 use super::context::Context;
 use super::naming::types::NamedType;
-use super::value_type::{native, native_bits};
+use super::value_type::{native, native_bits, odd};
 use crate::ir::Type;
 use crate::number::hex;
 
@@ -30,8 +30,7 @@ impl FieldType {
         match self {
             FieldType::Bool => "bool".to_owned(),
             FieldType::Native(native) => (*native).to_owned(),
-            FieldType::Odd(true, bits) => format!("rt::Int<{bits}>"),
-            FieldType::Odd(false, bits) => format!("rt::Uint<{bits}>"),
+            FieldType::Odd(signed, bits) => odd(*signed, *bits),
             FieldType::Real(bits) => format!("f{bits}"),
             FieldType::Time(path) => (*path).to_owned(),
             FieldType::Bytes(length) => format!("[u8; {length}]"),

@@ -1,8 +1,7 @@
 //! Constants of the machine that are not stored in the device, and the unit conversions that depend on them.
 
 use super::context::Context;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::options::RustOptions;
 use crate::ir::{Device, GivenRef, Item, MachineUnit};
 use crate::names::{self, Case, NameRequest};

@@ -182,8 +182,8 @@ impl Links {
     /// Adds the paths of messages. Returns whether any message has a request.
     #[cfg(feature = "messages")]
     fn add_messages(&mut self, names: &Names<'_>) -> bool {
-        self.messages = names.messages.paths().map(|message| (message.id, message.path)).collect();
-        names.messages.paths().any(|message| message.is_request)
+        self.messages = names.messages.paths().collect();
+        names.messages.shapes.iter().any(|shape| !shape.message.request.is_empty())
     }
 
     fn add_handles(&mut self, scope: &Scope<'_>, names: &HandleNames<'_>, device: Option<&str>) {

@@ -1,41 +1,19 @@
 //! Reserved names of methods and of objects' types, and method names for which clippy expects a certain signature.
 
-/// Names that objects' types and methods must not have. These are keywords, methods and modules of the device, and
-/// names that would hide a primitive type or the runtime. Methods that all types have and that take `self` by value are
-/// also included.
-pub(super) const RESERVED: [&str; 31] = [
-    "types",
-    "new",
-    "axis",
-    "client",
-    "into_client",
-    "into",
-    "try_into",
-    "objects",
-    "mappable",
-    "pdo",
-    "rt",
-    "bool",
-    "char",
-    "str",
-    "u8",
-    "u16",
-    "u32",
-    "u64",
-    "u128",
-    "usize",
-    "i8",
-    "i16",
-    "i32",
-    "i64",
-    "i128",
-    "isize",
-    "f32",
-    "f64",
-    "self",
-    "super",
-    "crate",
+/// Keywords, and names that would hide a primitive type or the runtime.
+const KEYWORDS: [&str; 21] = [
+    "self", "super", "crate", "rt", "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16",
+    "i32", "i64", "i128", "isize", "f32", "f64",
 ];
+
+/// Names of methods and modules of the device, and of methods that all types have and that take `self` by value.
+const METHODS: [&str; 10] =
+    ["types", "new", "axis", "client", "into_client", "into", "try_into", "objects", "mappable", "pdo"];
+
+/// Returns the names that objects' types and methods must not have.
+pub(super) fn reserved<'n>() -> impl Iterator<Item = &'n str> {
+    METHODS.into_iter().chain(KEYWORDS)
+}
 
 /// Additional reserved names if the device has messages.
 pub(super) const RESERVED_WITH_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];

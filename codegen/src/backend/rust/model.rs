@@ -24,7 +24,7 @@ use super::locations::Locations;
 #[cfg(feature = "messages")]
 use super::messages::ProtocolModel;
 #[cfg(feature = "messages")]
-use super::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
+use super::method_names::{reserved, RESERVED_WITH_MESSAGES};
 use super::named::Types;
 use super::naming::Names;
 use super::objects::{self, ObjectModel};
@@ -191,7 +191,7 @@ impl Model {
     #[cfg(feature = "messages")]
     fn protocol_of(&self, context: &Context<'_>, options: &RustOptions) -> Option<ProtocolModel> {
         let objects = self.objects.iter().map(|object| object.name.trim_start_matches("r#"));
-        let reserved: Vec<&str> = objects.chain(RESERVED).chain(RESERVED_WITH_MESSAGES).collect();
+        let reserved: Vec<&str> = objects.chain(reserved()).chain(RESERVED_WITH_MESSAGES).collect();
         ProtocolModel::new(context, options, &self.types, &reserved)
     }
 

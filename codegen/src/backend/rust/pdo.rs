@@ -8,8 +8,7 @@ use crate::number::{self, hex, hex16, hex8};
 use super::code::{call, list, seq, Break, Data, Doc};
 use super::context::Context;
 use super::doc_table;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::field_type::{field_type, FieldType};
 use super::links::DocModule;
 use super::method_names::{method_allow, unused_name};
@@ -266,11 +265,10 @@ fn field(context: &Context<'_>, entry: &PdoEntry, name: String, options: &RustOp
     };
     let title = docs::escape(&naming::pdos::title(context, entry));
     FieldModel {
-        docs: if title.is_empty() {
-            vec![facts]
-        } else {
-            vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))]
-        },
+        docs: vec![match title.is_empty() {
+            true => facts,
+            false => format!("{}: {facts}", title.trim_end_matches(['.', ':'])),
+        }],
         getter: String::new(),
         setter: String::new(),
         name,

@@ -3,8 +3,7 @@
 
 use super::context::Context;
 use super::doc_table;
-use super::docs;
-use super::docs::WORDS;
+use super::docs::{self, WORDS};
 use super::links::DocModule;
 use super::literal;
 use super::pdo;

@@ -224,7 +224,7 @@ impl Parts<'_, '_> {
             call: call.to_owned(),
             name: item.name.to_string(),
             constant: object.path(model),
-            native: self.context.value_type(item.ty).number()?.1,
+            native: self.context.value_type(item.ty).native()?,
             sample,
             unit: item.quantity.as_deref().and_then(|quantity| PLAIN.unit(quantity)).unwrap_or_default(),
         })

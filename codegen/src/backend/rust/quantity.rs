@@ -22,10 +22,10 @@ pub(super) fn of(context: &Context<'_>, item: &Item) -> Option<QuantityType> {
     }
     let ty = context.value_type(item.ty);
     if !ty.is_real() {
-        ty.number()?;
+        ty.native()?;
     }
     let sentinels = if ty.is_real() { Vec::new() } else { sentinels(quantity) };
-    let (base, word) = (ty.path(), ty.word());
+    let (base, word) = (&*ty.path(), ty.word());
     let mut quantity_type = match &quantity.scale {
         None if sentinels.is_empty() => return None,
         None => linear(base, &word, 1.0, 0.0)?,

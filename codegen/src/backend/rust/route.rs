@@ -16,31 +16,29 @@ pub(super) enum RouteBus {
     Esc,
 }
 
+/// For each bus, in the order of the variants: the bus of the IR, the name for use in other names, the name for a
+/// sentence, and the address type.
+const BUSES: [(Bus, &str, &str, &str); 6] = [
+    (Bus::CanOpen, "CanOpen", "CANopen", "rt::Object"),
+    (Bus::EtherCat, "CoE", "EtherCAT", "rt::Object"),
+    (Bus::Modbus, "Modbus", "Modbus", "rt::Register"),
+    (Bus::Serial, "Serial", "the serial line", "rt::Parameter"),
+    (Bus::Profinet, "Image", "PROFINET", "rt::ImageField"),
+    (Bus::EtherCat, "Esc", "the slave controller", "rt::EscMemory"),
+];
+
 impl RouteBus {
     pub const ALL: [RouteBus; 6] =
         [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
     /// Returns the corresponding bus of the IR.
     pub fn of_items(self) -> Bus {
-        match self {
-            RouteBus::CanOpen => Bus::CanOpen,
-            RouteBus::CoE | RouteBus::Esc => Bus::EtherCat,
-            RouteBus::Modbus => Bus::Modbus,
-            RouteBus::Serial => Bus::Serial,
-            RouteBus::Image => Bus::Profinet,
-        }
+        BUSES[self as usize].0
     }
 
     /// Returns the name of the bus for use in other names.
     pub fn word(self) -> &'static str {
-        match self {
-            RouteBus::CanOpen => "CanOpen",
-            RouteBus::CoE => "CoE",
-            RouteBus::Modbus => "Modbus",
-            RouteBus::Serial => "Serial",
-            RouteBus::Image => "Image",
-            RouteBus::Esc => "Esc",
-        }
+        BUSES[self as usize].1
     }
 
     /// Returns the name of the runtime's type for the bus.
@@ -58,25 +56,12 @@ impl RouteBus {
 
     /// Returns the name of the bus for a sentence.
     pub fn title(self) -> &'static str {
-        match self {
-            RouteBus::CanOpen => "CANopen",
-            RouteBus::CoE => "EtherCAT",
-            RouteBus::Modbus => "Modbus",
-            RouteBus::Serial => "the serial line",
-            RouteBus::Image => "PROFINET",
-            RouteBus::Esc => "the slave controller",
-        }
+        BUSES[self as usize].2
     }
 
     /// Returns the name of the address type for the bus.
     pub fn address_type(self) -> &'static str {
-        match self {
-            RouteBus::CanOpen | RouteBus::CoE => "rt::Object",
-            RouteBus::Modbus => "rt::Register",
-            RouteBus::Serial => "rt::Parameter",
-            RouteBus::Image => "rt::ImageField",
-            RouteBus::Esc => "rt::EscMemory",
-        }
+        BUSES[self as usize].3
     }
 }
 

@@ -11,7 +11,7 @@ pub(super) enum ValueType {
     /// A primitive type, such as `u16`, `i64`, `bool` or `f32`.
     Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
     /// `Uint<N>` or `Int<N>`.
-    Odd { name: &'static str, range: (i128, i128) },
+    Odd { bits: u8, range: (i128, i128) },
     /// A text type of the runtime. Its values are written as string literals.
     Text(&'static str),
     /// A byte sequence type of the runtime. Its values are written as byte string literals.
@@ -23,33 +23,13 @@ pub(super) enum ValueType {
 impl ValueType {
     pub(super) fn of(ty: Type) -> Self {
         let integer = |name| ValueType::Native { name, range: ty.integer_range(), real: 0 };
-        let odd = |name| ValueType::Odd { name, range: ty.integer_range().unwrap_or((0, 0)) };
+        let odd = |bits| ValueType::Odd { bits, range: ty.integer_range().unwrap_or((0, 0)) };
         match ty {
             Type::Boolean => ValueType::Native { name: "bool", range: None, real: 0 },
             Type::Integer(bits @ (8 | 16 | 32 | 64)) => integer(native(true, bits.into())),
             Type::Unsigned(bits @ (8 | 16 | 32 | 64)) => integer(native(false, bits.into())),
-            Type::Integer(24) => odd("rt::Int<24>"),
-            Type::Integer(40) => odd("rt::Int<40>"),
-            Type::Integer(48) => odd("rt::Int<48>"),
-            Type::Integer(56) => odd("rt::Int<56>"),
-            Type::Unsigned(1) => odd("rt::Uint<1>"),
-            Type::Unsigned(2) => odd("rt::Uint<2>"),
-            Type::Unsigned(3) => odd("rt::Uint<3>"),
-            Type::Unsigned(4) => odd("rt::Uint<4>"),
-            Type::Unsigned(5) => odd("rt::Uint<5>"),
-            Type::Unsigned(6) => odd("rt::Uint<6>"),
-            Type::Unsigned(7) => odd("rt::Uint<7>"),
-            Type::Unsigned(9) => odd("rt::Uint<9>"),
-            Type::Unsigned(10) => odd("rt::Uint<10>"),
-            Type::Unsigned(11) => odd("rt::Uint<11>"),
-            Type::Unsigned(12) => odd("rt::Uint<12>"),
-            Type::Unsigned(13) => odd("rt::Uint<13>"),
-            Type::Unsigned(14) => odd("rt::Uint<14>"),
-            Type::Unsigned(15) => odd("rt::Uint<15>"),
-            Type::Unsigned(24) => odd("rt::Uint<24>"),
-            Type::Unsigned(40) => odd("rt::Uint<40>"),
-            Type::Unsigned(48) => odd("rt::Uint<48>"),
-            Type::Unsigned(56) => odd("rt::Uint<56>"),
+            Type::Integer(bits @ (24 | 40 | 48 | 56)) => odd(bits),
+            Type::Unsigned(bits @ (1..=7 | 9..=15 | 24 | 40 | 48 | 56)) => odd(bits),
             Type::Real32 => ValueType::Native { name: "f32", range: None, real: 32 },
             Type::Real64 => ValueType::Native { name: "f64", range: None, real: 64 },
             Type::VisibleString(_) => ValueType::Text("rt::VisibleString"),
@@ -63,25 +43,26 @@ impl ValueType {
     }
 
     /// Returns the path of the type.
-    pub(super) fn path(self) -> &'static str {
+    pub(super) fn path(self) -> String {
         match self {
-            ValueType::Native { name, .. } | ValueType::Odd { name, .. } => name,
-            ValueType::Text(path) | ValueType::Bytes(path) | ValueType::Time(path) => path,
+            ValueType::Odd { bits, range: (low, _) } => odd(low < 0, bits.into()),
+            ValueType::Native { name: path, .. }
+            | ValueType::Text(path)
+            | ValueType::Bytes(path)
+            | ValueType::Time(path) => path.to_owned(),
         }
     }
 
-    /// Returns the path of an integer type, and the primitive integer that holds its values. Returns `None` for other
-    /// types.
-    pub(super) fn number(self) -> Option<(&'static str, &'static str)> {
+    /// Returns the primitive integer that holds the values of an integer type. Returns `None` for other types.
+    pub(super) fn native(self) -> Option<&'static str> {
         let (low, high) = self.integers()?;
-        let width = 128 - if low < 0 { high + 1 } else { high }.leading_zeros();
-        let native = native(low < 0, width);
-        Some((self.path(), native))
+        Some(native(low < 0, 128 - if low < 0 { high + 1 } else { high }.leading_zeros()))
     }
 
     /// Returns the name of the type for use in other names: `U16`, `Int24`, `VisibleString`.
     pub(super) fn word(self) -> String {
-        let mut letters = self.path().trim_start_matches("rt::").chars().filter(char::is_ascii_alphanumeric);
+        let path = self.path();
+        let mut letters = path.trim_start_matches("rt::").chars().filter(char::is_ascii_alphanumeric);
         let first = letters.next().map(|first| first.to_ascii_uppercase());
         first.into_iter().chain(letters).collect()
     }
@@ -229,6 +210,11 @@ pub(super) fn native(signed: bool, bits: u32) -> &'static str {
         (true, ..=32) => "i32",
         (true, _) => "i64",
     }
+}
+
+/// Returns the path of the runtime's type for integers with a width that no primitive integer has.
+pub(super) fn odd(signed: bool, bits: u32) -> String {
+    format!("rt::{}<{bits}>", if signed { "Int" } else { "Uint" })
 }
 
 /// Returns the number of bits of a primitive integer.

@@ -4,7 +4,7 @@ use super::code::Doc;
 use super::constants::{accesses, bound, Constant, Constants};
 use super::docs;
 use super::machine::MachineModel;
-use super::method_names::{unused_name, RESERVED};
+use super::method_names::{reserved, unused_name};
 use super::naming::machines::NamedMachine;
 use crate::ir::{ItemRef, StateMachine};
 use crate::names::{self, Case, NameRequest};
@@ -37,7 +37,7 @@ pub(super) fn models(constants: &Constants<'_, '_>, machines: &[MachineModel]) -
     let all = constants.context.names.types.machines.iter().zip(machines).enumerate();
     let named = all.filter(|(_, (_, model))| model.has_transitions());
     let count = named.clone().count();
-    let mut used: Vec<String> = RESERVED.map(str::to_owned).to_vec();
+    let mut used: Vec<String> = reserved().map(str::to_owned).collect();
     used.extend(constants.objects.iter().map(|object| object.name.clone()));
     let lower = |(position, (named, model)): (usize, (&NamedMachine<'_>, &MachineModel))| {
         let name = if count == 1 { "walk".to_owned() } else { format!("walk {}", named.machine.name) };

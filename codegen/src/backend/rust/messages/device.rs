@@ -31,12 +31,6 @@ pub(in crate::backend::rust) struct CallModel {
     pub after: Option<String>,
 }
 
-/// The state of the driver after power-on.
-pub(in crate::backend::rust) struct DefaultModel {
-    /// Type of the message that brings the driver into the same state when the program sends it.
-    pub selector: String,
-}
-
 /// Returns the methods that send requests.
 pub(super) fn calls(
     shaped: &[Shaped<'_>],
@@ -97,16 +91,12 @@ fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// Returns the state of the driver after power-on. Returns `None` if the description states no such state, if no
+/// Returns the type of the message that brings the driver into its state after power-on. Returns `None` if the description states no such state, if no
 /// message selects it, or if no request requires it.
-pub(super) fn by_default(
-    shaped: &[Shaped<'_>],
-    messages: &[MessageModel],
-    calls: &[CallModel],
-) -> Option<DefaultModel> {
+pub(super) fn by_default(shaped: &[Shaped<'_>], messages: &[MessageModel], calls: &[CallModel]) -> Option<String> {
     let shape = shaped.iter().find(|shape| shape.message.by_default)?;
     let selector = selector(shaped, messages, shape.message.after.as_ref())?;
-    calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
+    calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(selector)
 }
 
 /// Returns a note that names the replacement of a message and, if the description states them, the models that have the

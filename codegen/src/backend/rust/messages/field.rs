@@ -184,14 +184,14 @@ fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Che
         None => Doc::from(literal),
     };
     let range = ty.range_as(&variant::widest(item), &wrap);
-    let path = named.unwrap_or(ty.path()).to_owned();
+    let path = named.map_or_else(|| ty.path(), str::to_owned);
     (range.text() != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
 }
 
 /// Returns the range check for a number that has fewer bits than its Rust type. The check accepts the listed values or,
 /// if there is no list, the numbers within the limits and the width.
 fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check> {
-    let value_type = ValueType::Odd { name: "", range: base.integer_range()? };
+    let value_type = ValueType::Odd { bits: 0, range: base.integer_range()? };
     Some((native.to_owned(), value, value_type.range_within(&variant::widest(item))?))
 }
 

@@ -10,7 +10,7 @@ mod protocol;
 mod rules;
 mod steps;
 
-pub(super) use device::{CallModel, DefaultModel};
+pub(super) use device::CallModel;
 pub(super) use field::Field;
 pub(super) use parameters::{Arm, ParametersModel};
 pub(super) use protocol::{DataModel, EntryModel, MessageModel, ProtocolModel};

@@ -10,7 +10,7 @@ use super::super::options::RustOptions;
 use super::outcomes::OutcomesModel;
 use super::rules::{RuleModel, Rules};
 use super::{completion, device, field, framing, outcomes, parameters, steps};
-use super::{CallModel, DefaultModel, Field, ParametersModel, Statements};
+use super::{CallModel, Field, ParametersModel, Statements};
 use crate::collections::{HashMap, HashSet};
 use crate::ir::{Completion, DeviceStateId, DeviceStateRef, Message, MessageId};
 use crate::resolve::messages::{self, Shaped, Step};
@@ -32,8 +32,8 @@ pub(in super::super) struct ProtocolModel {
     pub requests: Vec<(String, bool)>,
     pub request_derives: Vec<String>,
     pub calls: Vec<CallModel>,
-    /// State of the driver for a device in its state after power-on.
-    pub by_default: Option<DefaultModel>,
+    /// Type of the message that brings the driver into its state after power-on.
+    pub by_default: Option<String>,
 }
 
 /// A message, which consists of a request, a reply, or both, ready to be printed.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::backend::rust::item_addresses::ItemAddresses;
 use crate::backend::rust::located::{Located, Register};
-use crate::backend::rust::method_names::{RESERVED, RESERVED_WITH_MESSAGES};
+use crate::backend::rust::method_names::{reserved, RESERVED_WITH_MESSAGES};
 use crate::backend::rust::reachable::addressable;
 use crate::ir::{Group, Item, ItemId, ObjectCode};
 use crate::names::{self, Case, NameRequest};
@@ -124,7 +124,7 @@ fn unique(located: &Located<'_>) -> Vec<String> {
     let name_requests = registers.chain(objects);
     let has_messages = located.device.is_some_and(|device| !device.messages.is_empty());
     let with_messages = RESERVED_WITH_MESSAGES.into_iter().filter(|_| has_messages);
-    let reserved: Vec<&str> = RESERVED.into_iter().chain(with_messages).collect();
+    let reserved: Vec<&str> = reserved().chain(with_messages).collect();
     names::unique(name_requests, &reserved, Case::Snake)
 }
 

@@ -27,14 +27,6 @@ fn base_names(message: &Message) -> MessageNames {
     [request, reply, format!("{name} entry"), format!("{name} reply entry")]
 }
 
-/// The path of a message, relative to the device's module.
-pub(in crate::backend::rust) struct MessagePath {
-    pub id: MessageId,
-    /// True if the message has a request. Otherwise, only the device sends the message.
-    pub is_request: bool,
-    pub path: String,
-}
-
 /// The messages of a device for which code is generated, with the names of their types.
 #[derive(Default)]
 pub(in crate::backend::rust) struct NamedMessages<'a> {
@@ -49,14 +41,16 @@ impl<'a> NamedMessages<'a> {
         NamedMessages { names: names(&shapes), shapes }
     }
 
-    /// Returns the path of each message that has a request or a reply.
-    pub fn paths(&self) -> impl Iterator<Item = MessagePath> + use<'_> {
-        let path = |(shape, [request, reply, ..]): (&Shaped<'_>, &MessageNames)| {
-            let is_request = !shape.message.request.is_empty();
-            let path = format!("messages::{}", if is_request { request } else { reply });
-            MessagePath { id: shape.id, is_request, path }
-        };
+    /// Returns the path of each message that has a request or a reply, relative to the device's module.
+    pub fn paths(&self) -> impl Iterator<Item = (MessageId, String)> + use<'_> {
         let named = self.shapes.iter().zip(&self.names);
-        named.filter(|(shape, _)| !shape.message.request.is_empty() || !shape.message.reply.is_empty()).map(path)
+        named.filter_map(|(shape, [request, reply, ..])| {
+            let name = match (shape.message.request.is_empty(), shape.message.reply.is_empty()) {
+                (false, _) => request,
+                (true, false) => reply,
+                (true, true) => return None,
+            };
+            Some((shape.id, format!("messages::{name}")))
+        })
     }
 }

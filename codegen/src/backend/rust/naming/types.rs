@@ -14,7 +14,7 @@ use crate::names::{self, Case, NameRequest};
 pub(in crate::backend::rust) struct NamedType {
     pub name: String,
     /// Rust path of the base type, such as `u8` or `rt::Uint<3>`.
-    pub base: &'static str,
+    pub base: String,
     /// Primitive integer that holds the raw value, such as `u8`.
     pub native: &'static str,
     /// Integer type of the raw value in the IR.
@@ -27,8 +27,8 @@ impl NamedType {
     /// Creates a type with the base type `ty` and without a name. Returns `None` if neither Rust nor the runtime has a
     /// corresponding integer type.
     fn with_base(ty: Type) -> Option<Self> {
-        let (base, native) = ValueType::of(ty).number()?;
-        Some(NamedType { name: String::new(), base, native, ty, bits: ty.bits()? })
+        let value = ValueType::of(ty);
+        Some(NamedType { name: String::new(), base: value.path(), native: value.native()?, ty, bits: ty.bits()? })
     }
 
     /// Returns whether the raw value is signed.

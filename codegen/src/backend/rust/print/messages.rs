@@ -361,8 +361,8 @@ pub(super) fn methods(code: &mut Code, model: &Model) {
         code.doc("with methods for the later requests.");
         open!(code, "impl<C> ", name, "<C> {");
         calls(&|call| call.is_selector && call.after.is_none(), code);
-        if let Some(default) = &protocol.by_default {
-            after_power_on(code, name, &default.selector);
+        if let Some(selector) = &protocol.by_default {
+            after_power_on(code, name, selector);
         }
         code.close("}");
     }

@@ -3,7 +3,7 @@
 use super::types::type_name;
 use super::values::{Enumeration, Values};
 use crate::backend::rust::code::{call, seq, Doc};
-use crate::backend::rust::value_type::native;
+use crate::backend::rust::value_type::{native, odd};
 use crate::ir::{TimeFormat, Type, TypeDef};
 use crate::number::hex8;
 
@@ -132,9 +132,7 @@ impl<'v> Field<'v> {
         }
         match self.kind {
             FieldKind::Bit | FieldKind::Flag => "bool".to_owned(),
-            FieldKind::Number { signed } if self.usage == Use::Image => {
-                format!("rt::{}<{}>", if signed { "Int" } else { "Uint" }, self.position.bits)
-            }
+            FieldKind::Number { signed } if self.usage == Use::Image => odd(signed, self.position.bits),
             FieldKind::Native { .. } | FieldKind::Number { .. } => self.native().to_owned(),
             FieldKind::Real => format!("f{}", self.position.bits),
             FieldKind::Time("time_of_day") => "rt::TimeOfDay".to_owned(),
