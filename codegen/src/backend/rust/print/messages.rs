@@ -88,17 +88,7 @@ fn parameters(code: &mut Code, model: &ParametersModel, has_station: bool) {
 
     let given = ["&self", "parameter: rt::Parameter", "request: &[u8]", "reply: &[u8]", "value: &mut [u8]"];
     function(code, "fn read_reply<E>", &given, "Result<usize, rt::Error<E>>");
-    if model.read.is_empty() {
-        line!(code, "let _ = (parameter, request, reply, value);");
-    }
-    for arm in &model.read {
-        open!(code, "if ", arm.rule, ".length(parameter).is_some() {");
-        line!(code, "let reply = ", received(arm), "?;");
-        line!(code, "return ", arm.value, ";");
-        code.close("}");
-    }
-    line!(code, "Err(rt::Error::NoMessage)");
-    code.close("}");
+    received(code, &model.read, "parameter, request, reply, value", "reply", |arm| &arm.value);
 
     let given = ["&self", "parameter: rt::Parameter", "value: &[u8]", "request: &mut [u8]"];
     function(code, "fn write_request", &given, WRITTEN);
@@ -109,17 +99,7 @@ fn parameters(code: &mut Code, model: &ParametersModel, has_station: bool) {
 
     let given = ["&self", "parameter: rt::Parameter", "request: &[u8]", "reply: &[u8]"];
     function(code, "fn write_reply<E>", &given, "Result<(), rt::Error<E>>");
-    if model.write.is_empty() {
-        line!(code, "let _ = (parameter, request, reply);");
-    }
-    for arm in &model.write {
-        open!(code, "if ", arm.rule, ".length(parameter).is_some() {");
-        line!(code, "let _ = ", received(arm), "?;");
-        line!(code, "return Ok(());");
-        code.close("}");
-    }
-    line!(code, "Err(rt::Error::NoMessage)");
-    code.close("}");
+    received(code, &model.write, "parameter, request, reply", "_", |_| "Ok(())");
     code.close("}");
 }
 
@@ -140,8 +120,22 @@ fn sent(code: &mut Code, arms: &[Arm], has_station: bool, unused: &str, conditio
     code.close("}");
 }
 
-fn received(arm: &Arm) -> Doc {
-    call!(generic!("rt::message::read::", arm.message, "E"), "request", "reply")
+/// Writes code that decodes the reply to the message of the first arm whose rule contains the parameter. Also writes the
+/// end of the function. `unused` contains the parameters of a function without arms, and `reply` is the name of the
+/// decoded reply.
+fn received(code: &mut Code, arms: &[Arm], unused: &str, reply: &str, result: impl Fn(&Arm) -> &str) {
+    if arms.is_empty() {
+        line!(code, "let _ = (", unused, ");");
+    }
+    for arm in arms {
+        open!(code, "if ", arm.rule, ".length(parameter).is_some() {");
+        let read = call!(generic!("rt::message::read::", arm.message, "E"), "request", "reply");
+        line!(code, "let ", reply, " = ", read, "?;");
+        line!(code, "return ", result(arm), ";");
+        code.close("}");
+    }
+    line!(code, "Err(rt::Error::NoMessage)");
+    code.close("}");
 }
 
 /// Returns the lifetime argument of a message type that borrows from the data, or an empty text.

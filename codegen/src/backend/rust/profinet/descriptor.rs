@@ -64,8 +64,8 @@ fn submodule_docs(
     is_safe: bool,
 ) -> Vec<String> {
     let api = if submodule.api == 0 { String::new() } else { format!(" of API {}", hex16(submodule.api)) };
-    let mut lines = vec![docs::titled(&submodule.name, &format!("submodule {}{api}", hex32(submodule.ident)))];
-    docs::paragraphs(&submodule.name, submodule.documentation.as_deref(), &mut lines);
+    let title = docs::titled(&submodule.name, &format!("submodule {}{api}", hex32(submodule.ident)));
+    let mut lines = docs::documented(title, &submodule.name, submodule.documentation.as_deref());
     let too_long = submodule.records.iter().filter(|group| match &group.kind {
         crate::ir::GroupKind::Record(record) => !(1..=crate::limits::MAX_RECORD_BYTES).contains(&record.length),
         _ => false,
@@ -121,8 +121,8 @@ pub(in crate::backend::rust) struct ModuleModel<'a> {
 }
 
 pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
-    let mut docs = vec![docs::titled(&module.name, &format!("module {}", hex32(module.number)))];
-    docs::paragraphs(&module.name, module.documentation.as_deref(), &mut docs);
+    let title = docs::titled(&module.name, &format!("module {}", hex32(module.number)));
+    let mut docs = docs::documented(title, &module.name, module.documentation.as_deref());
     list_submodules(scope, &module.submodules, &mut docs);
     ModuleModel {
         name,
@@ -156,9 +156,7 @@ pub(in crate::backend::rust) struct DapModel<'a> {
 pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>) -> DapModel<'s> {
     let AccessPoint { device, settings, name } = point;
     let outer = if scope.is_single() { "" } else { "super::" };
-    let facts = format!("device access point {}", hex32(settings.ident));
-    let mut docs = vec![docs::titled(&device.name, &facts)];
-    docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
+    let heading = docs::titled(&device.name, &format!("device access point {}", hex32(settings.ident)));
     let product_name = literal::string(&device.name);
     let module = vec![
         ("ident", Doc::from(hex32(settings.ident))),
@@ -173,8 +171,8 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
     let device_id = hex16(settings.device_id);
     DapModel {
         name,
-        docs,
-        heading: docs::titled(&device.name, &facts),
+        docs: docs::documented(heading.clone(), &device.name, device.documentation.as_deref()),
+        heading,
         identity: IdentityModel {
             vendor_id: Data::option(Some(&vendor_id)),
             product_code: Data::option(Some(&device_id)),

@@ -121,8 +121,8 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
     };
     let fields: Vec<FieldModel> = found.iter().zip(names).map(field).collect();
     let facts = format!("user structure {} of {}", hex16(unit.identifier), count_of(length, "byte"));
-    let mut lines = vec![docs::titled(&unit.name, &facts)];
-    docs::paragraphs(&unit.name, unit.documentation.as_deref(), &mut lines);
+    let title = docs::titled(&unit.name, &facts);
+    let mut lines = docs::documented(title, &unit.name, unit.documentation.as_deref());
     lines.extend(image::table(&fields, &["decode"], |_| String::new()));
     UnitModel {
         name: format!("{name}Diagnosis"),

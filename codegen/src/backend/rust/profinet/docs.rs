@@ -10,15 +10,12 @@ pub(super) fn escape(text: &str) -> String {
     docs::escape(text).trim().to_owned()
 }
 
-/// Adds the documentation of `name` to `lines` with one line per paragraph. Omits a text that only repeats the name.
-pub(super) fn paragraphs(name: &str, documentation: Option<&Documentation>, lines: &mut Vec<String>) {
-    let Some(documentation) = documentation.filter(|documentation| documentation.text.trim() != name.trim()) else {
-        return;
-    };
-    for paragraph in documentation.text.lines().map(escape).filter(|line| !line.is_empty()) {
-        lines.push(String::new());
-        lines.push(paragraph);
-    }
+/// Returns the lines of a doc comment: `first`, and the documentation of `name` with one line per paragraph. Omits a text
+/// that only repeats the name.
+pub(super) fn documented(first: String, name: &str, documentation: Option<&Documentation>) -> Vec<String> {
+    let documentation = documentation.filter(|documentation| documentation.text.trim() != name.trim());
+    let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
+    docs::paragraphs([first].into_iter().chain(lines.map(escape).filter(|line| !line.is_empty())))
 }
 
 /// Returns a sentence that consists of `title` and `facts`.

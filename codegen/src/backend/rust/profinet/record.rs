@@ -220,8 +220,8 @@ fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<
 
 fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
     let facts = format!("parameter record {} of {}", hex16(record.index), count_of(record.length, "byte"));
-    let mut lines = vec![docs::titled(&group.name, &facts)];
-    docs::paragraphs(&group.name, group.documentation.as_deref(), &mut lines);
+    let title = docs::titled(&group.name, &facts);
+    let mut lines = docs::documented(title, &group.name, group.documentation.as_deref());
     if let Some(bump) = record.changeable_with_bump {
         let not = if bump { "may disturb" } else { "does not disturb" };
         lines.extend([String::new(), format!("Writing the record {not} the running device.")]);
@@ -252,9 +252,7 @@ fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
         let more = if ranges.len() > SHOWN { ", …" } else { "" };
         facts += &format!(", allowed {}{more}", ranges[..ranges.len().min(SHOWN)].join(", "));
     }
-    let mut lines = vec![docs::titled(&item.name, &facts)];
-    docs::paragraphs(&item.name, item.documentation.as_deref(), &mut lines);
-    lines
+    docs::documented(docs::titled(&item.name, &facts), &item.name, item.documentation.as_deref())
 }
 
 fn bound(value: &Option<Value>) -> String {

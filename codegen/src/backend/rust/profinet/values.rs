@@ -123,9 +123,8 @@ fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, 
         Variant { name, docs: docs::sentence(&format!("{}{separator}{title}", value.value)), value: value.value }
     };
     let title = docs::escape(&definition.name);
-    let mut lines =
-        vec![format!("{}, {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0))];
-    docs::paragraphs(&definition.name, definition.documentation.as_deref(), &mut lines);
+    let title = format!("{}, {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0));
+    let mut lines = docs::documented(title, &definition.name, definition.documentation.as_deref());
     let row = |(value, name): (&&EnumValue, &String)| {
         let meaning = doc_table::meaning(&value.name, name, value.documentation.as_deref());
         [value.value.to_string(), format!("[`{name}`](Self::{name})"), meaning]
