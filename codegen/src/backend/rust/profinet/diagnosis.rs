@@ -10,7 +10,7 @@ use super::literal;
 use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::{call, slice, Doc};
-use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
+use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis};
 use crate::names::{self, Case, NameRequest};
 use crate::text::count_of;
 
@@ -104,22 +104,12 @@ fn length(unit: &UnitDiagnosis) -> Option<u32> {
 
 fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: &RustOptions) -> UnitModel {
     let length = length(unit).unwrap_or(0);
-    let found: Vec<_> = unit
-        .fields
-        .iter()
-        .filter_map(|field| {
-            let ty = field.values.map_or(field.ty, Type::Named);
-            Some((field, Field::new(values, ty, (field.bit_offset, field.bits), length, Use::Record)?))
-        })
-        .collect();
-    let name_requests = found.iter().map(|(entry, field)| image::name_request(&entry.name, field));
-    let names = names::unique_up_to(name_requests, &["self", "super", "crate"], Case::Snake, 30);
-    let field = |((entry, field), name): (&(&_, Field<'_>), String)| {
-        let entry: &UnitDiagnosisField = entry;
-        let facts = field.facts(values.types, entry.ty);
-        FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
-    };
-    let fields: Vec<FieldModel> = found.iter().zip(names).map(field).collect();
+    let found = unit.fields.iter().filter_map(|entry| {
+        let ty = entry.values.map_or(entry.ty, Type::Named);
+        let field = Field::new(values, ty, (entry.bit_offset, entry.bits), length, Use::Record)?;
+        Some((entry.name.as_str(), entry.ty, field))
+    });
+    let fields = image::models(&found.collect::<Vec<_>>(), &["self", "super", "crate"], values, options);
     let facts = format!("user structure {} of {}", hex16(unit.identifier), count_of(length, "byte"));
     let title = docs::titled(&unit.name, &facts);
     let mut lines = docs::documented(title, &unit.name, unit.documentation.as_deref());

@@ -6,7 +6,7 @@ use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
-use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
+use crate::ir::{Direction, IoData, PdoEntryKind, Submodule, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::text::count_of;
 
@@ -115,25 +115,29 @@ fn trailer(bytes: u32) -> String {
 }
 
 fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<FieldModel> {
-    let is_field = |entry: &&PdoEntry| entry.kind != PdoEntryKind::Padding;
-    let found: Vec<(&PdoEntry, Field<'_>)> = data
-        .image
-        .fields
-        .iter()
-        .filter(is_field)
-        .filter_map(|entry| {
-            let bits = (entry.bit_offset, entry.bits);
-            Some((entry, Field::new(values, entry.ty, bits, data.image.length, Use::Image)?))
-        })
-        .collect();
-    let name_requests = found.iter().map(|(entry, field)| name_request(&entry.name, field));
-    let names = names::unique_up_to(name_requests, &RESERVED, Case::Snake, MAX_FIELD_NAME);
-    let all = found.iter().zip(names);
-    all.map(|((entry, field), name)| {
-        let facts = field.facts(values.types, entry.ty);
-        FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
-    })
-    .collect()
+    let entries = data.image.fields.iter().filter(|entry| entry.kind != PdoEntryKind::Padding);
+    let found = entries.filter_map(|entry| {
+        let bits = (entry.bit_offset, entry.bits);
+        let field = Field::new(values, entry.ty, bits, data.image.length, Use::Image)?;
+        Some((entry.name.as_str(), entry.ty, field))
+    });
+    models(&found.collect::<Vec<_>>(), &RESERVED, values, options)
+}
+
+/// Returns the models of fields. Each field is given with its name in the description and its type.
+pub(super) fn models(
+    found: &[(&str, Type, Field<'_>)],
+    reserved: &[&str],
+    values: &Values<'_>,
+    options: &RustOptions,
+) -> Vec<FieldModel> {
+    let name_requests = found.iter().map(|(title, _, field)| name_request(title, field));
+    let names = names::unique_up_to(name_requests, reserved, Case::Snake, MAX_FIELD_NAME);
+    let model = |((title, ty, field), name): (&(&str, Type, Field<'_>), String)| {
+        let facts = field.facts(values.types, *ty);
+        FieldModel::new(field, &name, vec![docs::titled(title, &facts)], options)
+    };
+    found.iter().zip(names).map(model).collect()
 }
 
 /// Returns the name request of a field. If the name is ambiguous, the position of the field is the suffix.
