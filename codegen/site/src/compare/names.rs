@@ -48,8 +48,7 @@ fn entries(group: &Group) -> Vec<String> {
         return vec![String::new(); group.items.len()];
     }
     let sub_index = |item: &Item| item.object().map_or(0, |(_, sub_index)| sub_index);
-    let name_requests: Vec<NameRequest<'_>> =
-        group.items.iter().map(|item| NameRequest::new(&item.name, "sub", sub_index(item))).collect();
+    let name_requests = group.items.iter().map(|item| NameRequest::new(&item.name, "sub", sub_index(item)));
     unique(name_requests, &[], Case::Snake)
 }
 

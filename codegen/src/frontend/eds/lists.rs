@@ -136,22 +136,49 @@ pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count:
     true
 }
 
-/// Number of possible object indices.
-const INDICES: usize = 0x1_0000;
+/// Set of object indices, stored as bits.
+struct Indices {
+    /// Minimum index of the set, divided by 64.
+    first: u16,
+    words: Vec<u64>,
+}
+
+impl Indices {
+    /// Creates an empty set with space for the indices `all`.
+    fn new(all: impl Iterator<Item = u16> + Clone) -> Self {
+        let first = all.clone().min().unwrap_or(0) / 64;
+        Indices { first, words: vec![0; usize::from(all.max().unwrap_or(0) / 64 - first) + 1] }
+    }
+
+    /// Adds `index` to the set. Returns true if the set did not contain the index.
+    fn insert(&mut self, index: u16) -> bool {
+        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get_mut(usize::from(word)));
+        let Some(word) = word else { return false };
+        let (before, bit) = (*word, 1 << (index % 64));
+        *word |= bit;
+        before & bit == 0
+    }
+
+    fn contains(&self, index: u16) -> bool {
+        let word = (index / 64).checked_sub(self.first).and_then(|word| self.words.get(usize::from(word)));
+        word.is_some_and(|word| word >> (index % 64) & 1 == 1)
+    }
+}
 
 /// Compares the object lists with the objects of `device`.
 pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device) {
-    let mut described = vec![false; INDICES];
-    for index in device.groups.iter().filter_map(Group::index) {
-        described[usize::from(index)] = true;
+    let indices = device.groups.iter().filter_map(Group::index);
+    let mut described = Indices::new(indices.clone());
+    for index in indices {
+        described.insert(index);
     }
-    let mut listed = vec![false; INDICES];
+    let mut listed = Indices::new(lists.listed.iter().map(|&(index, ..)| index));
     for &(index, list, span) in &lists.listed {
-        if std::mem::replace(&mut listed[usize::from(index)], true) {
+        if !listed.insert(index) {
             let message = format!("{} is listed twice", hex16(index));
             reader.diagnostics.push(codes::LISTED_TWICE.at(span, message));
         }
-        if !described[usize::from(index)] {
+        if !described.contains(index) {
             let message = format!("{} is listed, but the section [{index:04X}] is missing", hex16(index));
             reader.report(&codes::LISTED_NOT_DESCRIBED, span, message, "the object is left out");
         }
@@ -167,14 +194,14 @@ pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device)
     }
     not_listed(reader, lists, &listed, device);
     for (index, span) in std::mem::take(&mut reader.link_spans) {
-        if !described[usize::from(index)] {
+        if !described.contains(index) {
             let message = format!("the link refers to {}, which the file does not describe", hex16(index));
             reader.diagnostics.push(codes::DANGLING_LINK.at(span, message));
         }
     }
 }
 
-fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &[bool], device: &Device) {
+fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, device: &Device) {
     if lists.listed.is_empty() {
         if let Some(group) = device.groups.first() {
             let found =
@@ -186,7 +213,7 @@ fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &[bool], devic
     }
     for group in &device.groups {
         let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
-        if !listed[usize::from(index)] {
+        if !listed.contains(index) {
             let message = format!("object {} is described, but is in no object list", hex16(index));
             reader.diagnostics.push(codes::NOT_LISTED.at(group.origin.span, message));
         }
