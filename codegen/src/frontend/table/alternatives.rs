@@ -12,24 +12,28 @@ impl Read for Scaling {
             "a factor, or a table with `factor`, `by`, `times`, `reciprocal`, `fraction` or `exponent`";
         match &node.value {
             Value::Table(_) => ScaleRule::read(node).map(|rule| Scaling::Rule(Box::new(rule))),
-            _ => number(node).map(Scaling::Factor).ok_or_else(|| Mistake::ty(node, EXPECTED)),
+            _ => number(node).map(Scaling::Factor).ok_or_else(|| Mistake::expected(node, EXPECTED)),
         }
     }
 }
 
 impl Read for NumberOrText {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let number = || i64::read(node).map(NumberOrText::Number);
-        let text = |_| String::read(node).map(NumberOrText::Text);
-        number().or_else(text).map_err(|_| Mistake::value(node, "a number or a text".to_owned()))
+        match &node.value {
+            Value::Text(text) => Ok(NumberOrText::Text(text.to_string())),
+            Value::Integer(..) => i64::read(node).map(NumberOrText::Number),
+            _ => Err(Mistake::expected(node, "an integer or a text")),
+        }
     }
 }
 
 impl Read for FlagOrText {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let flag = || bool::read(node).map(FlagOrText::Flag);
-        let text = |_| String::read(node).map(FlagOrText::Text);
-        flag().or_else(text).map_err(|_| Mistake::value(node, "true, false or a text".to_owned()))
+        match &node.value {
+            Value::Text(text) => Ok(FlagOrText::Text(text.to_string())),
+            Value::Boolean(flag) => Ok(FlagOrText::Flag(*flag)),
+            _ => Err(Mistake::expected(node, "true, false or a text")),
+        }
     }
 }
 
@@ -63,7 +67,7 @@ impl Read for LiteralOrTable {
             Value::Table(_) => ConditionTable::read(node).map(LiteralOrTable::Table),
             _ => {
                 let literal = literal(node).map(LiteralOrTable::Literal);
-                literal.ok_or_else(|| Mistake::ty(node, "a value, or a table with `mask` and `value`"))
+                literal.ok_or_else(|| Mistake::expected(node, "a value, or a table with `mask` and `value`"))
             }
         }
     }

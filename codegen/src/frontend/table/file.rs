@@ -65,12 +65,9 @@ pub fn read(
 ) -> Option<Catalog> {
     let mut reader = Reader::new(source, file, diagnostics);
     let mut table = Table::new(&mut reader, chosen)?;
-    let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
-        let found = codes::TABLE_VALUE.at(Span::new(file, 0, 0), "the table has no `[device]`");
-        let help = "pass the overlay with `--overlay`, next to the description that it changes";
-        reader.diagnostics.push(if table.node("overlay").is_some() { found.help(help) } else { found });
-        return None;
-    };
+    let help = "pass an overlay with `--overlay`, next to the description that it changes";
+    let help = if table.has("overlay") { help } else { "describe the device: `[device]`, with `name` and `vendor`" };
+    let head = table.required::<DeviceTable>(&mut reader, "device", help)?;
     let mut device = Device::default();
     if let Some(manual) = table.take(&mut reader, "manual") {
         device.manual = Some(device::manual(&mut reader, &manual));
@@ -151,6 +148,8 @@ impl<'a> Table<'a> {
                     format!("version {} of the format is not supported, only version {VERSION}", version.value);
                 reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
             }
+            // Another value than a number is already reported.
+            None if self.has("lexibus") => {}
             None => {
                 let message = "the version of the format is missing";
                 let help = "begin the file with `lexibus = 1`";
@@ -167,6 +166,19 @@ impl<'a> Table<'a> {
     pub(super) fn take<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
         let node = self.node(key)?;
         reader.piece_at(node)
+    }
+
+    /// Reads the table `[key]`. Reports an error if the file does not have the table.
+    pub(super) fn required<T: Read>(&mut self, reader: &mut Reader<'a, '_>, key: &str, help: &str) -> Option<At<T>> {
+        if !self.has(key) {
+            let message = format!("the table has no `[{key}]`");
+            reader.report_with_help(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message, help);
+        }
+        self.take(reader, key)
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.parts.iter().any(|(name, _)| name.value == key)
     }
 
     /// Returns the elements of the array of tables below the key `key`.

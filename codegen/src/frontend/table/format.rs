@@ -165,7 +165,7 @@ macro_rules! table {
         impl Read for $name {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
                 let mut table = Self::default();
-                for (key, value) in read::table(node, concat!("struct ", stringify!($name)))?.iter() {
+                for (key, value) in read::table(node)?.iter() {
                     match key.value.as_ref() {
                         $(key!($field $($key)?) => table.$field = Read::read(value)?,)*
                         _ => return Err(Mistake::unknown_key(key, Self::KEYS)),

@@ -3,6 +3,7 @@
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 pub(super) use super::document::Node;
 use super::document::{Key, Table, Value};
+use crate::text::brief;
 
 /// Type that can be read from a TOML value.
 pub(super) trait Read: Sized {
@@ -27,18 +28,18 @@ pub(super) enum MistakeKind {
 }
 
 impl Mistake {
-    /// Creates the error for a value of the wrong type.
-    pub fn ty(node: &Node<'_>, expected: &str) -> Self {
+    /// Creates the error for a value that is not `expected`.
+    pub fn expected(node: &Node<'_>, expected: &str) -> Self {
         let found = match &node.value {
-            Value::Text(text) => format!("string {text:?}"),
-            Value::Integer(digits, radix) => format!("integer `{}`", decimal(digits, *radix)),
-            Value::Float(number) => format!("floating point `{number}`"),
-            Value::Boolean(flag) => format!("boolean `{flag}`"),
-            Value::Date => "date or time".to_owned(),
-            Value::List(_) => "sequence".to_owned(),
-            Value::Table(_) => "map".to_owned(),
+            Value::Text(text) => format!("the text `{}`", brief(text)),
+            Value::Integer(digits, radix) => format!("the number {}", decimal(digits, *radix)),
+            Value::Float(number) => format!("the number {number}"),
+            Value::Boolean(flag) => format!("`{flag}`"),
+            Value::Date => "a date or time".to_owned(),
+            Value::List(_) => "a list".to_owned(),
+            Value::Table(_) => "a table".to_owned(),
         };
-        Mistake::value(node, format!("invalid type: {found}, expected {expected}"))
+        Mistake::value(node, format!("expected {expected}, but found {found}"))
     }
 
     pub fn value(node: &Node<'_>, message: String) -> Self {
@@ -50,12 +51,11 @@ impl Mistake {
     }
 }
 
-/// Returns the entries of a table, or an error for any other value. `expected` describes the expected table in the
-/// error message.
-pub(super) fn table<'n, 'a>(node: &'n Node<'a>, expected: &str) -> Result<&'n Table<'a>, Mistake> {
+/// Returns the entries of a table, or an error for any other value.
+pub(super) fn table<'n, 'a>(node: &'n Node<'a>) -> Result<&'n Table<'a>, Mistake> {
     match &node.value {
         Value::Table(table) => Ok(table),
-        _ => Err(Mistake::ty(node, expected)),
+        _ => Err(Mistake::expected(node, "a table")),
     }
 }
 
@@ -86,11 +86,12 @@ macro_rules! integers {
     ($($ty:ident)*) => {$(
         impl Read for $ty {
             fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-                let Value::Integer(digits, radix) = &node.value else { return Err(Mistake::ty(node, stringify!($ty))) };
-                integer(digits, *radix).and_then(|number| number.try_into().ok()).ok_or_else(|| {
-                    let message = format!("invalid value: integer `{}`, expected {}", decimal(digits, *radix), stringify!($ty));
-                    Mistake::value(node, message)
-                })
+                let value = match &node.value {
+                    Value::Integer(digits, radix) => integer(digits, *radix).and_then(|number| number.try_into().ok()),
+                    _ => None,
+                };
+                let expected = || format!("an integer from {} to {}", $ty::MIN, $ty::MAX);
+                value.ok_or_else(|| Mistake::expected(node, &expected()))
             }
         }
     )*};
@@ -99,7 +100,7 @@ integers!(u8 u16 u32 u64 i64);
 
 impl Read for f64 {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        number(node).ok_or_else(|| Mistake::ty(node, "f64"))
+        number(node).ok_or_else(|| Mistake::expected(node, "a number"))
     }
 }
 
@@ -107,7 +108,7 @@ impl Read for bool {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         match &node.value {
             Value::Boolean(flag) => Ok(*flag),
-            _ => Err(Mistake::ty(node, "a boolean")),
+            _ => Err(Mistake::expected(node, "true or false")),
         }
     }
 }
@@ -116,7 +117,7 @@ impl Read for String {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         match &node.value {
             Value::Text(text) => Ok(text.to_string()),
-            _ => Err(Mistake::ty(node, "a string")),
+            _ => Err(Mistake::expected(node, "a text")),
         }
     }
 }
@@ -131,7 +132,7 @@ impl<T: Read> Read for Vec<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
         match &node.value {
             Value::List(list) => list.iter().map(T::read).collect(),
-            _ => Err(Mistake::ty(node, "a sequence")),
+            _ => Err(Mistake::expected(node, "a list")),
         }
     }
 }
@@ -144,7 +145,7 @@ impl<T: Read> Read for At<T> {
 
 impl<T: Read> Read for Entries<T> {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        let entries = table(node, "a table")?.iter().map(|(key, value)| Ok((self::key(key), At::read(value)?)));
+        let entries = table(node)?.iter().map(|(key, value)| Ok((self::key(key), At::read(value)?)));
         entries.collect::<Result<_, Mistake>>().map(Entries)
     }
 }
@@ -163,7 +164,7 @@ impl<T: Read> Read for TextOr<T> {
         match &node.value {
             Value::Text(text) => Ok(TextOr::Text(text.to_string())),
             Value::Table(_) => T::read(node).map(|table| TextOr::Table(Box::new(table))),
-            _ => Err(Mistake::ty(node, "a text or a table")),
+            _ => Err(Mistake::expected(node, "a text or a table")),
         }
     }
 }
@@ -173,7 +174,7 @@ impl<T: Read> Read for FlagOr<T> {
         match &node.value {
             Value::Boolean(flag) => Ok(FlagOr::Flag(*flag)),
             Value::Table(_) => T::read(node).map(|table| FlagOr::Table(Box::new(table))),
-            _ => Err(Mistake::ty(node, "true, false or a table")),
+            _ => Err(Mistake::expected(node, "true, false or a table")),
         }
     }
 }
@@ -191,6 +192,6 @@ pub(super) fn literal(node: &Node<'_>) -> Option<Literal> {
 
 impl Read for Literal {
     fn read(node: &Node<'_>) -> Result<Self, Mistake> {
-        literal(node).ok_or_else(|| Mistake::ty(node, "a number, a text, true or false"))
+        literal(node).ok_or_else(|| Mistake::expected(node, "a number, a text, true or false"))
     }
 }

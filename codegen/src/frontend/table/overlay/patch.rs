@@ -12,7 +12,6 @@ use super::super::tree::Reader;
 use super::super::Table;
 use crate::diagnostics::codes;
 use crate::ir::{Buses, CompactString};
-use crate::source::Span;
 use crate::text::brief;
 
 /// Contents of an overlay or profile, except the head.
@@ -129,12 +128,8 @@ pub(super) struct Overlay {
 impl Overlay {
     pub(super) fn read(reader: &mut Reader<'_, '_>) -> Option<Overlay> {
         let mut table = Table::new(reader, &[])?;
-        let Some(head) = table.take::<OverlayTable>(reader, "overlay") else {
-            let message = "the table has no `[overlay]`";
-            let found = codes::TABLE_VALUE.at(Span::new(reader.file, 0, 0), message);
-            reader.diagnostics.push(found.help("pass a table with `[device]` as an input, not as an overlay"));
-            return None;
-        };
+        let help = "pass a table with `[device]` as an input, not as an overlay";
+        let head = table.required::<OverlayTable>(reader, "overlay", help)?;
         let patch = Patch::read(reader, &mut table, &OVERLAY_KEYS);
         if head.value.why.is_none() {
             for row in patch.rows.iter().filter(|row| row.row.value.why.is_none()) {

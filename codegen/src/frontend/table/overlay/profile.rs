@@ -12,7 +12,7 @@ use super::{PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::ir::{Binding, Buses, CodeTable, CompactString, Device, Item, StateMachine, Type, TypeDef, TypeId};
 use crate::resolve::profiles::{Described, Profile, Signal, Telegram};
-use crate::source::{FileId, Source, Span};
+use crate::source::{FileId, Source};
 use crate::text::standard_and_clause;
 
 /// Reads the table of a profile. Returns `None` if the file is not valid TOML or has no `[profile]`.
@@ -20,12 +20,8 @@ pub(crate) fn read(source: &Source, diagnostics: &mut Diagnostics) -> Option<Pro
     let mut reader = Reader::new(source, FileId(0), diagnostics);
     let reader = &mut reader;
     let mut table = Table::new(reader, &[])?;
-    let Some(head) = table.take::<ProfileTable>(reader, "profile") else {
-        let message = "the table has no `[profile]`";
-        reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
-        return None;
-    };
-    let head = head.value;
+    let head =
+        table.required::<ProfileTable>(reader, "profile", "give the profile a name: `[profile]`, with `name`")?.value;
     let name = CompactString::from(head.name.as_deref().unwrap_or_default());
     reader.standard.clone_from(&name);
     let when = head.when.as_ref().and_then(|when| {
