@@ -4,10 +4,12 @@ use std::cell::OnceCell;
 
 use super::{EnumValue, Group, Item, ItemId, ItemPaths, Shape, Type, TypeDef, TypeId, Value, Zone};
 use crate::collections::HashMap;
+use crate::limits;
 use crate::source::Span;
 
-/// Maximum number of definitions that the search for an underlying type follows.
-const MAX_ALIASES: usize = 16;
+/// Maximum number of definitions that the search for an underlying type follows. Data types of a file can be nested this deep, and
+/// types that objects of an XDD define may have cycles.
+const MAX_ALIASES: usize = limits::MAX_XML_DEPTH + 1;
 
 /// Groups of items, and the types of these items.
 #[derive(Clone, Copy)]

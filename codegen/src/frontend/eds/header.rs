@@ -96,7 +96,7 @@ fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Dev
         ("LastEDS", &mut header.last_eds),
     ];
     let names = fields.each_ref().map(|(name, _)| *name);
-    let mut seen = [None; 12];
+    let mut seen = names.map(|_| None);
     for ref entry in reader.doc.entries_of(sections) {
         let Some(which) = position(&names, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);

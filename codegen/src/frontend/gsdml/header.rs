@@ -97,7 +97,9 @@ impl Header {
         let name = crate::text::file_name(name);
         let Some(named) = version_of_name(name) else {
             let message = format!("`{name}` is not a GSDML file name");
-            diagnostics.push(codes::GSDML_FILE_NAME.at(Span::new(file, 0, 0), message).help("rename the file to the form `GSDML-V2.35-Vendor-Device-20200131.xml`, optionally with `-hhmmss` after the date"));
+            let help = "rename the file to the form `GSDML-V2.35-Vendor-Device-20200131.xml`, optionally with `-hhmmss` after \
+                        the date";
+            diagnostics.push(codes::GSDML_FILE_NAME.at(Span::new(file, 0, 0), message).help(help));
             return;
         };
         if let Some((version, span)) = &self.version {

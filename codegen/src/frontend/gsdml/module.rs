@@ -44,6 +44,7 @@ impl<'a> Reader<'a, '_> {
         }
         match info {
             Some(mut info) => {
+                // A module has fields for its releases, so they are no attributes.
                 module.version = std::mem::take(&mut info.software).compact();
                 module.revision = std::mem::take(&mut info.hardware).compact();
                 info.add_to(&mut module.name, &mut module.documentation, &mut module.identity, &mut attributes);

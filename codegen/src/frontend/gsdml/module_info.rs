@@ -85,6 +85,7 @@ impl Info<'_> {
         identity: &mut Identity,
         attributes: &mut Attributes,
     ) {
+        // A submodule may already have a name from `TextId`.
         if !self.name.is_empty() {
             *name = self.name;
         }

@@ -43,8 +43,9 @@ pub(super) fn conditions(reader: &mut Reader<'_, '_>, when: &Conditions) -> Vec<
     conditions
 }
 
-/// Reads the models, firmware versions and buses that have an element, and the element that replaces it. Returns `None` if the
-/// table states none of these facts.
+/// Reads the models, firmware versions and buses that have an element, and the element that replaces it. `since` is the first
+/// firmware version that has the element, and `until` is the first later version that no longer has it. Records the names of the
+/// models, so that they are looked up later. Returns `None` if the table states none of these facts.
 pub(super) fn availability(
     reader: &mut Reader<'_, '_>,
     models: &Option<Vec<At<String>>>,

@@ -142,6 +142,7 @@ impl Definitions {
         id
     }
 
+    /// Creates an enumeration with the integer type `base`, and reports invalid values.
     pub fn enumeration(
         &mut self,
         reader: &mut Reader<'_, '_>,
@@ -195,6 +196,7 @@ impl Definitions {
         self.push(reader, about, base, Shape::Enumeration { base, values, closed })
     }
 
+    /// Creates a bit field with the integer type `base`, and reports invalid bits.
     pub fn bit_field(
         &mut self,
         reader: &mut Reader<'_, '_>,

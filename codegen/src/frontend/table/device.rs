@@ -6,7 +6,7 @@ use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrTex
 use super::notation;
 use super::tree::Reader;
 use super::{lints, value};
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{
     AxisRange, AxisRule, AxisStep, Bus, Buses, CanOpenSettings, CiteUnit, CompactString, Device, EtherCatSettings,
     Identity, Manual, ManualSection, Type, Variant,
@@ -152,7 +152,10 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
                             `{ objects = \"0x6000..0x67FF\", index = 0x800 }`";
                 let found = codes::TABLE_VALUE.at(reader.span(rule), message).help(help);
                 let digits = rule.value.objects.as_ref().and_then(|given| lints::digits_of_index(reader, given));
-                reader.diagnostics.push(digits.into_iter().fold(found, Diagnostic::note));
+                reader.diagnostics.push(match digits {
+                    Some(digits) => found.note(digits),
+                    None => found,
+                });
             }
         }
     }

@@ -148,7 +148,7 @@ impl<'a> Table<'a> {
                     format!("version {} of the format is not supported, only version {VERSION}", version.value);
                 reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
             }
-            // Another value than a number is already reported.
+            // A value that is no version number is already reported.
             None if self.has("lexibus") => {}
             None => {
                 let message = "the version of the format is missing";

@@ -95,7 +95,7 @@ fn message(
     }
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
     let completion = completion(reader, given.completion.as_ref(), &replies);
-    mention(reader, given);
+    mention_names(reader, given);
     let replaced_by = given.replaced_by.as_ref().map(|name| name.value.as_str());
     let versions = [&given.since, &given.until];
     let availability = conditions::availability(reader, &given.models, versions, replaced_by, None);
@@ -163,7 +163,7 @@ fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut D
 }
 
 /// Adds the names to which a message refers.
-fn mention(reader: &mut Reader<'_, '_>, message: &MessageTable) {
+fn mention_names(reader: &mut Reader<'_, '_>, message: &MessageTable) {
     let messages = [&message.after, &message.error, &message.replaced_by];
     reader.mention(messages.into_iter().flatten(), "message");
     reader.mention(&message.accepted_in, "state");

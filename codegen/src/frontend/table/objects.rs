@@ -9,7 +9,7 @@ use super::notation::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::Reader;
 use super::words::OBJECT_CODES;
-use crate::diagnostics::{codes, Diagnostic};
+use crate::diagnostics::codes;
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::number::hex16;
 use crate::text::brief;
@@ -31,7 +31,10 @@ pub(super) fn add(
         let message = format!("`{}` is not an object address", brief(&key.value));
         let found = codes::TABLE_PLACE.at(reader.span(key), message).help(notation::OBJECT_HELP);
         let digits = super::lints::digits_of_index(reader, key);
-        reader.diagnostics.push(digits.into_iter().fold(found, Diagnostic::note));
+        reader.diagnostics.push(match digits {
+            Some(digits) => found.note(digits),
+            None => found,
+        });
         return;
     };
     rows.allow(reader, key, row);
@@ -103,7 +106,7 @@ fn head(
         if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
             let key_text = brief(&key.value);
             let message = format!("`{key_text}` has sub-entries, but `{of_value}` applies only to a single value");
-            let found = crate::diagnostics::codes::TABLE_PLACE.at(reader.span(key), message);
+            let found = codes::TABLE_PLACE.at(reader.span(key), message);
             reader
                 .diagnostics
                 .push(found.help(format!("write `{of_value}` in the row of a sub-entry, such as `\"{key_text}:1\"`")));
@@ -212,7 +215,7 @@ fn further_addresses(
     let has_number = row.reg.is_some() || row.esc.is_some() || row.param.is_some();
     if has_number && !is_single {
         let message = "`reg`, `esc` and `param` apply to one item, but the row describes several objects";
-        let found = crate::diagnostics::codes::TABLE_PLACE.at(reader.span(named.key), message);
+        let found = codes::TABLE_PLACE.at(reader.span(named.key), message);
         reader.diagnostics.push(found.help("write one row per object"));
         return;
     }

@@ -133,7 +133,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, targets: &Targets<'_>) 
     let Some((index, sub_index)) = by_address().or_else(|| by_name().and_then(Item::object)) else {
         if by_name().is_some() {
             let message = format!("`{}` has no object address, but PDOs map only objects", brief(what));
-            let found = crate::diagnostics::codes::UNRESOLVED_NAME.at(reader.span(text), message);
+            let found = codes::UNRESOLVED_NAME.at(reader.span(text), message);
             reader.diagnostics.push(found.help("add `obj` to the row, or a rule for CANopen or EtherCAT to its space"));
             return None;
         }

@@ -148,7 +148,7 @@ impl RowPatcher<'_> {
         let mut found = find(groups, &row.key.value);
         if found.len() > 1 {
             let message = format!("{} items have the name `{}`", found.len(), brief(&row.key.value));
-            let found = crate::diagnostics::codes::TABLE_PLACE.at(reader.span(&row.key), message);
+            let found = codes::TABLE_PLACE.at(reader.span(&row.key), message);
             reader.diagnostics.push(found.help("write `\"Group/Item\"`, or name the object in `[chapters.objects]`"));
             return RowEffect::Changed;
         }
@@ -218,7 +218,7 @@ impl RowPatcher<'_> {
         let wanted = name.as_deref().and_then(|name| self.rows.definitions.base(reader, kind, name));
         if let Some(wanted) = wanted.filter(|wanted| wanted.bits() != base.bits()) {
             let message = format!("`{}` has the type {wanted}, but the item has {base}", name.unwrap_or_default());
-            let found = crate::diagnostics::codes::TABLE_VALUE.at(span, message);
+            let found = codes::TABLE_VALUE.at(span, message);
             reader.diagnostics.push(found.help("add `type` to the row if the type in the description is wrong"));
             return None;
         }
