@@ -24,7 +24,7 @@ impl Number {
         }
     }
 
-    /// Returns the number if it is a whole number of up to 32 bits.
+    /// Returns the number if it is a whole number from 0 to 2³² − 1.
     pub fn unsigned(self) -> Option<u32> {
         u32::try_from(self.int()?).ok()
     }

@@ -343,7 +343,6 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
     Ok(Columns { list, header: None, width })
 }
 
-/// Finds the position of a cell by its text.
 /// Converts a title to lowercase words without punctuation, separated by single spaces.
 pub(super) fn normal(title: &str) -> String {
     let letters = title.chars().map(|letter| if letter.is_alphanumeric() { letter } else { ' ' });

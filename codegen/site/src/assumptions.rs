@@ -96,45 +96,45 @@ fn all<'d>(parts: &'d Parts, first: &str) -> Vec<Assumption<'d>> {
 /// Calls `visitor` for each ambiguity with the link and title of the affected element. Ambiguities on the overview that
 /// have a subject come last.
 fn visit<'d>(parts: &'d Parts, first: &str, mut visitor: impl FnMut(String, &str, &'d Doubt)) {
-    let mut visit = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
+    let mut each = |file: &str, anchor: &str, title: &str, doubts: &'d [Doubt]| {
         let hash = if anchor.is_empty() { "" } else { "#" };
         doubts.iter().for_each(|doubt| visitor(format!("{file}{hash}{anchor}"), title, doubt));
     };
     let overview = |has_subject: bool| {
         parts.overview.doubts.iter().filter(move |doubt| doubt.subject.is_empty() != has_subject).map(from_ref)
     };
-    overview(false).for_each(|doubt| visit(first, "", "Device", doubt));
+    overview(false).for_each(|doubt| each(first, "", "Device", doubt));
     for Area { file, title, doubts, sections, .. } in &parts.areas {
-        visit(file, "", title, doubts);
+        each(file, "", title, doubts);
         for section in sections {
             let anchor = section.anchor.as_deref().unwrap_or_default();
-            visit(file, anchor, &named(&section.number, &section.name), &section.doubts);
+            each(file, anchor, &named(&section.number, &section.name), &section.doubts);
             for shared in &section.shared {
                 for row in shared.rows(&section.rows) {
-                    visit(file, &row.anchor, &named(&row.number, &row.name), from_ref(&shared.doubt));
+                    each(file, &row.anchor, &named(&row.number, &row.name), from_ref(&shared.doubt));
                 }
             }
             for row in &section.rows {
                 let title = named(&row.number, &row.name);
-                visit(file, &row.anchor, &title, &row.doubts);
-                visit(file, &row.anchor, &title, &row.doubts_of_type);
+                each(file, &row.anchor, &title, &row.doubts);
+                each(file, &row.anchor, &title, &row.doubts_of_type);
             }
         }
     }
     if let Some((file, behavior)) = &parts.behavior {
-        behavior.machines.iter().for_each(|one| visit(file, &one.anchor, &one.title, &one.doubts));
-        behavior.sequences.iter().for_each(|one| visit(file, &one.anchor, &one.name, &one.doubts));
+        behavior.machines.iter().for_each(|one| each(file, &one.anchor, &one.title, &one.doubts));
+        behavior.sequences.iter().for_each(|one| each(file, &one.anchor, &one.name, &one.doubts));
     }
     if let Some(file) = &parts.process {
-        parts.data.frames.iter().for_each(|frame| visit(file, &frame.anchor, &frame.title, &frame.doubts));
+        parts.data.frames.iter().for_each(|frame| each(file, &frame.anchor, &frame.title, &frame.doubts));
     }
     if let Some((file, protocol)) = &parts.protocol {
-        protocol.messages.iter().for_each(|message| visit(file, &message.anchor, &message.name, &message.doubts));
+        protocol.messages.iter().for_each(|message| each(file, &message.anchor, &message.name, &message.doubts));
     }
     for (file, _, tables) in &parts.codes {
-        tables.iter().for_each(|table| visit(file, &table.anchor, &table.title, &table.doubts));
+        tables.iter().for_each(|table| each(file, &table.anchor, &table.title, &table.doubts));
     }
-    overview(true).for_each(|doubt| visit(first, "", "Device", doubt));
+    overview(true).for_each(|doubt| each(first, "", "Device", doubt));
 }
 
 fn named(number: &str, name: &str) -> String {

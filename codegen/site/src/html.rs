@@ -1,5 +1,7 @@
 //! Writes HTML pages with drawings and a search. Askama's HTML escaper escapes all texts.
 
+use std::fmt;
+
 use askama::Template;
 
 use super::area::{Area, Section};
@@ -107,20 +109,37 @@ struct DevicePart<'p> {
     root: &'static str,
 }
 
+/// Counts the bytes that are written.
+struct Counter(usize);
+
+impl fmt::Write for Counter {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.0 += text.len();
+        Ok(())
+    }
+}
+
+fn size(template: &impl Template) -> usize {
+    let mut counter = Counter(0);
+    // Rendering cannot fail, see `written`.
+    let _ = template.render_into(&mut counter);
+    counter.0
+}
+
 /// Returns the size in bytes of a section. The links to related elements are not included, because they are added
 /// later.
 pub(super) fn size_of_section(section: &Section) -> usize {
-    written(&SectionPart { section }).len()
+    size(&SectionPart { section })
 }
 
 /// Returns the size of a module in bytes.
 pub(super) fn size_of_module(module: &ModuleModel) -> usize {
-    written(&ModulePart { module }).len()
+    size(&ModulePart { module })
 }
 
 /// Returns the size in bytes of a device's row in the list of all devices.
 pub(super) fn size_of_device(device: &Listed, columns: &[Column]) -> usize {
-    written(&DevicePart { device, columns, root: "." }).len()
+    size(&DevicePart { device, columns, root: "." })
 }
 
 #[derive(Template)]

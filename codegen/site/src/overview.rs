@@ -99,8 +99,8 @@ fn identity(device: &Device) -> Vec<(&'static str, String)> {
     ]
 }
 
-/// Returns the names and values of the device's bus settings. One row lists all buses. A bus has a separate row only if it has
-/// settings.
+/// Returns the names and values of the device's bus settings. One row lists all buses. The values of buses
+/// without settings are empty.
 fn settings(device: &Device) -> Vec<(&'static str, String)> {
     let rates = device.canopen.iter().flat_map(|settings| &settings.bit_rates);
     let rates: Vec<String> = rates.map(u16::to_string).collect();

@@ -2,7 +2,6 @@
 
 use crate::ir::{CodeRow, Value};
 
-/// Returns the code or range of a row as printed: `0x8110`, `F125`, `0xFF13 to 0xFF15`. Codes without a printed
 /// Returns the cell of a row in an additional column, or an empty text if the row has no such cell.
 pub fn cell(row: &CodeRow, column: usize) -> String {
     match (row.printed_cells.get(column).filter(|printed| !printed.is_empty()), row.cells.get(column)) {

@@ -392,7 +392,7 @@ impl Words<'_> {
         }
     }
 
-    /// Returns the first `shown` allowed values and ranges.
+    /// Returns the first `shown` allowed values and ranges, such as `1, 3 to 7`. Adds `…` if there are more.
     pub fn allowed(
         &self,
         limits: &Limits,

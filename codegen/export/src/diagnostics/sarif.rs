@@ -1,12 +1,10 @@
 //! Diagnostics for code-scanning services and editors, as SARIF 2.1.0.
 //!
-//! The fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted. Objects without a type
-//! of their own list their fields in alphabetical order.
+//! The fields have the names that the OASIS standard defines. Fields that Lexibus does not use are omitted.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
-use serde_json::{json, Value};
 
 use lexibus_codegen::diagnostics::render::marked::{Mark, MarkedSource};
 use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
@@ -29,7 +27,7 @@ struct Run<'a> {
     tool: Tool<'a>,
     column_kind: &'static str,
     newline_sequences: [&'static str; 3],
-    results: Vec<Outcome>,
+    results: Vec<Outcome<'a>>,
 }
 
 #[derive(Serialize)]
@@ -49,75 +47,91 @@ struct Driver<'a> {
 struct Rule {
     id: &'static str,
     name: String,
-    short_description: Value,
-    full_description: Value,
-    help: Value,
-    default_configuration: Value,
+    short_description: Message<'static>,
+    full_description: Message<'static>,
+    help: Message<'static>,
+    default_configuration: Configuration,
+}
+
+#[derive(Serialize)]
+struct Configuration {
+    enabled: bool,
+    level: &'static str,
+}
+
+#[derive(Serialize)]
+struct Message<'a> {
+    text: std::borrow::Cow<'a, str>,
 }
 
 /// A `result` object of SARIF.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Outcome {
+struct Outcome<'a> {
     rule_id: &'static str,
     rule_index: usize,
     level: &'static str,
-    message: Value,
+    message: Message<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
     occurrence_count: Option<usize>,
-    locations: Vec<Location>,
+    locations: Vec<Location<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    related_locations: Vec<Location>,
+    related_locations: Vec<Location<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixes: Vec<Fix>,
+    fixes: Vec<Fix<'a>>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Location {
-    physical_location: PhysicalLocation,
+struct Location<'a> {
+    physical_location: PhysicalLocation<'a>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    message: Option<Value>,
+    message: Option<Message<'a>>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct PhysicalLocation {
-    artifact_location: Value,
+struct PhysicalLocation<'a> {
+    artifact_location: ArtifactLocation,
     #[serde(skip_serializing_if = "Option::is_none")]
-    region: Option<Region>,
+    region: Option<Region<'a>>,
+}
+
+#[derive(Serialize)]
+struct ArtifactLocation {
+    uri: String,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Region {
+struct Region<'a> {
     start_line: u32,
     start_column: u32,
     end_line: u32,
     end_column: u32,
     #[serde(skip_serializing_if = "Option::is_none")]
-    snippet: Option<Value>,
+    snippet: Option<Message<'a>>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Fix {
-    description: Value,
-    artifact_changes: [ArtifactChange; 1],
+struct Fix<'a> {
+    description: Message<'a>,
+    artifact_changes: [ArtifactChange<'a>; 1],
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct ArtifactChange {
-    artifact_location: Value,
-    replacements: [Replacement; 1],
+struct ArtifactChange<'a> {
+    artifact_location: ArtifactLocation,
+    replacements: [Replacement<'a>; 1],
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Replacement {
-    deleted_region: Region,
-    inserted_content: Value,
+struct Replacement<'a> {
+    deleted_region: Region<'a>,
+    inserted_content: Message<'a>,
 }
 
 /// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
@@ -156,18 +170,18 @@ fn rule(code: &'static Code) -> Rule {
         short_description: message(code.summary),
         full_description: message(code.explanation),
         help: message(code.explanation),
-        default_configuration: json!({
-            "enabled": code.default != Level::Allow,
-            "level": if code.default == Level::Deny { "error" } else { "warning" },
-        }),
+        default_configuration: Configuration {
+            enabled: code.default != Level::Allow,
+            level: if code.default == Level::Deny { "error" } else { "warning" },
+        },
     }
 }
 
-fn outcome(diagnostic: &Diagnostic, sources: &[Source], rule_index: usize) -> Outcome {
+fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Outcome<'a> {
     let place = MarkedSource::of(diagnostic.span, sources);
     let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).map(message);
     let fixes: Vec<Fix> = place.and_then(|place| fix(diagnostic, place)).into_iter().collect();
-    let related = |note: &Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
+    let related = |note: &'a Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
     Outcome {
         rule_id: diagnostic.code.id,
         rule_index,
@@ -175,7 +189,7 @@ fn outcome(diagnostic: &Diagnostic, sources: &[Source], rule_index: usize) -> Ou
             Severity::Error => "error",
             Severity::Warning => "warning",
         },
-        message: message(&full_message(diagnostic, sources, fixes.is_empty())),
+        message: Message { text: full_message(diagnostic, sources, fixes.is_empty()).into() },
         occurrence_count: Some(diagnostic.more).filter(|&more| more > 0),
         locations: place.map(|place| location(place, label)).into_iter().collect(),
         related_locations: diagnostic.notes.iter().filter_map(related).collect(),
@@ -202,7 +216,7 @@ fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) ->
     text
 }
 
-fn fix(diagnostic: &Diagnostic, place: MarkedSource<'_>) -> Option<Fix> {
+fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a>> {
     let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
     let deleted_region = Region { snippet: None, ..region(place.source, mark) };
     Some(Fix {
@@ -214,12 +228,12 @@ fn fix(diagnostic: &Diagnostic, place: MarkedSource<'_>) -> Option<Fix> {
     })
 }
 
-fn location(place: MarkedSource<'_>, message: Option<Value>) -> Location {
+fn location<'a>(place: MarkedSource<'a>, message: Option<Message<'a>>) -> Location<'a> {
     let region = place.mark.map(|mark| region(place.source, mark));
     Location { physical_location: PhysicalLocation { artifact_location: artifact(place.source), region }, message }
 }
 
-fn region(source: &Source, mark: Mark) -> Region {
+fn region(source: &Source, mark: Mark) -> Region<'_> {
     let marked = source.text().get(mark.start..mark.end).unwrap_or_default();
     Region {
         start_line: mark.from.line,
@@ -230,12 +244,12 @@ fn region(source: &Source, mark: Mark) -> Region {
     }
 }
 
-fn message(text: &str) -> Value {
-    json!({ "text": text })
+fn message(text: &str) -> Message<'_> {
+    Message { text: text.into() }
 }
 
-fn artifact(source: &Source) -> Value {
-    json!({ "uri": uri(source.name(), cfg!(windows)) })
+fn artifact(source: &Source) -> ArtifactLocation {
+    ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
 }
 
 /// Converts a file name to a URI. `windows` selects the path syntax of Windows.

@@ -203,6 +203,7 @@ pub(super) fn text<T: PartialEq + Debug + Show>(name: &'static str) -> impl Fn(&
 }
 
 /// Returns a rule that compares values by their texts, because the values contain positions in the source.
+/// The changes have no effect.
 pub(super) fn positioned<T: PartialEq>(
     name: &'static str,
     show: impl Fn(&T) -> String,

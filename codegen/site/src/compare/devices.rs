@@ -42,9 +42,11 @@ pub(super) fn compare(old: &Device, new: &Device, comparison: &mut Comparison<'_
             .paired_by(|number| identifier(&number.name)).judged(Judgment::API, Judgment::API), given),
         code_tables: codes::tables(),
         machines: list(Elements::titled(|machine: &StateMachine| format!("machine {}", machine.name))
-            .paired_by(|machine| identifier(&machine.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), machines::compare),
+            .paired_by(|machine| identifier(&machine.name))
+            .judged(Judgment::API_COMPATIBLE, Judgment::API), machines::compare),
         procedures: list(Elements::titled(|procedure: &Procedure| format!("procedure {}", procedure.name))
-            .paired_by(|procedure| identifier(&procedure.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), machines::procedure),
+            .paired_by(|procedure| identifier(&procedure.name))
+            .judged(Judgment::API_COMPATIBLE, Judgment::API), machines::procedure),
         composites: list(Elements::titled(|composite: &Composite| format!("composite {}", composite.name))
             .paired_by(|composite| identifier(&composite.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), composite),
         variants: list(Elements::titled(|model: &Variant| format!("model {}", model.name))

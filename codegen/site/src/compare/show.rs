@@ -123,12 +123,12 @@ pub(super) fn index(number: &u16) -> String {
     hex16(*number)
 }
 
-/// Formats an identity number in hexadecimal notation. The text is empty if there is no number.
 /// Formats a list of indices.
 pub(super) fn indices(numbers: &[u16]) -> String {
     numbers.iter().map(index).collect::<Vec<_>>().join(", ")
 }
 
+/// Formats an identity number in hexadecimal notation. The text is empty if there is no number.
 pub(super) fn ident(number: &Option<u32>) -> String {
     number.map(hex32).unwrap_or_default()
 }

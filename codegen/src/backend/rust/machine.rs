@@ -337,6 +337,7 @@ fn patterns(
         None => pattern::width(None, list),
     };
     let native = bits.map_or_else(|| native(false, width), |model| model.native);
+    // Patterns have at most 32 bits, also in a larger integer.
     let maximum = u64::MAX >> (64 - native_bits(native).min(32));
     let is_possible = |mask: u32, value: u32| mask != 0 && u64::from(mask) <= maximum && value & !mask == 0;
     let list: Vec<(u32, &Pattern)> =

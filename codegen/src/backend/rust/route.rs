@@ -16,29 +16,30 @@ pub(super) enum RouteBus {
     Esc,
 }
 
-/// For each bus, in the order of the variants: the bus of the IR, the name for use in other names, the name for a
-/// sentence, and the address type.
-const BUSES: [(Bus, &str, &str, &str); 6] = [
-    (Bus::CanOpen, "CanOpen", "CANopen", "rt::Object"),
-    (Bus::EtherCat, "CoE", "EtherCAT", "rt::Object"),
-    (Bus::Modbus, "Modbus", "Modbus", "rt::Register"),
-    (Bus::Serial, "Serial", "the serial line", "rt::Parameter"),
-    (Bus::Profinet, "Image", "PROFINET", "rt::ImageField"),
-    (Bus::EtherCat, "Esc", "the slave controller", "rt::EscMemory"),
-];
-
 impl RouteBus {
     pub const ALL: [RouteBus; 6] =
         [RouteBus::CanOpen, RouteBus::CoE, RouteBus::Modbus, RouteBus::Serial, RouteBus::Image, RouteBus::Esc];
 
+    /// Returns the bus of the IR, the name for use in other names, the name for a sentence, and the address type.
+    fn facts(self) -> (Bus, &'static str, &'static str, &'static str) {
+        match self {
+            RouteBus::CanOpen => (Bus::CanOpen, "CanOpen", "CANopen", "rt::Object"),
+            RouteBus::CoE => (Bus::EtherCat, "CoE", "EtherCAT", "rt::Object"),
+            RouteBus::Modbus => (Bus::Modbus, "Modbus", "Modbus", "rt::Register"),
+            RouteBus::Serial => (Bus::Serial, "Serial", "the serial line", "rt::Parameter"),
+            RouteBus::Image => (Bus::Profinet, "Image", "PROFINET", "rt::ImageField"),
+            RouteBus::Esc => (Bus::EtherCat, "Esc", "the slave controller", "rt::EscMemory"),
+        }
+    }
+
     /// Returns the corresponding bus of the IR.
     pub fn of_items(self) -> Bus {
-        BUSES[self as usize].0
+        self.facts().0
     }
 
     /// Returns the name of the bus for use in other names.
     pub fn word(self) -> &'static str {
-        BUSES[self as usize].1
+        self.facts().1
     }
 
     /// Returns the name of the runtime's type for the bus.
@@ -56,12 +57,12 @@ impl RouteBus {
 
     /// Returns the name of the bus for a sentence.
     pub fn title(self) -> &'static str {
-        BUSES[self as usize].2
+        self.facts().2
     }
 
     /// Returns the name of the address type for the bus.
     pub fn address_type(self) -> &'static str {
-        BUSES[self as usize].3
+        self.facts().3
     }
 }
 

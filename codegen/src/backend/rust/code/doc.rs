@@ -234,7 +234,7 @@ impl Data {
         }
     }
 
-    /// Creates `Some(value)` or `None` from a value that the line can be broken in.
+    /// Creates `Some(value)` or `None`. The line can be broken inside of the value.
     pub fn optional(value: Option<Doc>) -> Doc {
         value.map_or_else(|| Doc::from("None"), |value| Data::call("Some", [value]))
     }

@@ -91,8 +91,8 @@ fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
     model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
-/// Returns the type of the message that brings the driver into its state after power-on. Returns `None` if the description states no such state, if no
-/// message selects it, or if no request requires it.
+/// Returns the type of the message that brings the driver into its state after power-on. Returns `None` if the description
+/// states no such state, if no message selects it, or if no request requires it.
 pub(super) fn by_default(shaped: &[Shaped<'_>], messages: &[MessageModel], calls: &[CallModel]) -> Option<String> {
     let shape = shaped.iter().find(|shape| shape.message.by_default)?;
     let selector = selector(shaped, messages, shape.message.after.as_ref())?;

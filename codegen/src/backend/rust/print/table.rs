@@ -1,6 +1,6 @@
 //! Prints the static table of all objects and registers.
 
-use crate::backend::rust::code::{line, open, seq, Code};
+use crate::backend::rust::code::{line, open, Code};
 use crate::backend::rust::model::Model;
 
 pub(super) fn write(code: &mut Code, model: &Model) {
@@ -15,6 +15,8 @@ pub(super) fn write(code: &mut Code, model: &Model) {
         return;
     }
     open!(code, "pub static ENTRIES: &[rt::table::Entry] = &[");
-    code.lines(table.iter().map(|entry| seq![entry, ","]));
+    for entry in table {
+        line!(code, entry, ",");
+    }
     code.close("];");
 }
