@@ -81,12 +81,11 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
 fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
     let described = groups.len();
     for (index, mut object) in objects {
-        object.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
         let known = groups.get_mut(..described).unwrap_or_default();
         let position = known.binary_search_by_key(&Some(index), Group::index).ok();
         if let Some(group) = position.and_then(|position| known.get_mut(position)) {
             group.items.append(&mut object.items);
-            group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
+            sort(&mut group.items);
             continue;
         }
         let is_var = matches!(object.items.as_slice(), [item] if item.object() == Some((index, 0)));
@@ -95,6 +94,7 @@ fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
             (group.name, group.names) = (item.name.clone(), item.names.clone());
         }
         group.items = object.items;
+        sort(&mut group.items);
         group.origin = object.origin;
         group.depends_on_slot = object.depends_on_slot;
         group.depends_on_slot_group = object.depends_on_slot_group;
@@ -103,6 +103,11 @@ fn add(groups: &mut Vec<Group>, objects: BTreeMap<u16, Implied>) {
     if groups.len() > described {
         groups.sort_by_key(Group::index);
     }
+}
+
+/// Sorts the items of an object by sub-index.
+fn sort(items: &mut [Item]) {
+    items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
 }
 
 #[cfg(test)]

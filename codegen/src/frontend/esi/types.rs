@@ -24,7 +24,7 @@ pub(super) struct Types<'a> {
     values: Vec<ThinVec<EnumValue>>,
     by_name: HashMap<Cow<'a, str>, u32>,
     links: Links,
-    /// Tells which types are endless. `new` has used up the sequence.
+    /// Order of conversion. After `new`, only [`Order::is_endless`] is used, and the sequence is empty.
     order: Order,
     /// IR type for each data type of the file. For an alias, this is the type that the alias names.
     meaning: Vec<Type>,

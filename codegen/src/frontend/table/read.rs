@@ -90,8 +90,7 @@ macro_rules! integers {
                     Value::Integer(digits, radix) => integer(digits, *radix).and_then(|number| number.try_into().ok()),
                     _ => None,
                 };
-                let expected = || format!("an integer from {} to {}", $ty::MIN, $ty::MAX);
-                value.ok_or_else(|| Mistake::expected(node, &expected()))
+                value.ok_or_else(|| Mistake::expected(node, &format!("an integer from {} to {}", $ty::MIN, $ty::MAX)))
             }
         }
     )*};

@@ -5,11 +5,11 @@ use super::data_type::enum_value;
 use super::number::integer;
 use super::objects::{Builder, Key, Raw};
 use super::reader::Texts;
-use super::types::underlying;
 use crate::diagnostics::codes;
 use crate::frontend::canopen::object;
 use crate::frontend::canopen::value::Role;
 use crate::frontend::xml::Given;
+use crate::ir::owner::Owner;
 use crate::ir::{
     Access, Behavior, Binding, CompactString, Configured, Extension, Extensions, Fact, FactOrigin, Item, Limits,
     Mappable, ObjectCode, OtherSpans, Quantity, Rule, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
@@ -39,7 +39,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         let allowed = allowed.map(|allowed| self.application.allowed(self.reader, allowed));
         let allowed = allowed.filter(|allowed| self.charge(allowed.weight, raw.span(Key::UniqueIdRef)));
         item.ty = self.enumeration(plain, view, allowed);
-        let base = underlying(&self.types, item.ty);
+        let base = Owner::of_types(&self.types).basic(item.ty);
         item.access = self.access(raw, view, code, parent, &mut item);
         if ty.is_none() {
             object::without_type(&mut item);
@@ -81,7 +81,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             // The type of the parameter is used if it is based on the type of the object, for example as an
             // enumeration.
             let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
-            return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
+            return named.filter(|&named| named != ty && Owner::of_types(&self.types).basic(named) == ty).or(Some(ty));
         }
         item.at.ty = parameter.map_or(raw.origin.span, |parameter| parameter.span());
         // IEC 61131-3 has no type for a DOMAIN, so the parameter declares a different type, which is ignored.

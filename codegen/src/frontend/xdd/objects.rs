@@ -7,11 +7,11 @@ use super::attributes::Attributes;
 use super::number::integer;
 use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
-use super::types::underlying;
 use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::object::{self, define_type, ObjectType, Terms};
 use crate::frontend::xml::{Given, Read};
+use crate::ir::owner::Owner;
 use crate::ir::{Category, Device, Extensions, Fact, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::number::{hex16, hex8};
@@ -343,7 +343,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// Returns the type of a sub-object, if the type of its object defines the sub-object.
     fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
-        let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
+        let Type::Named(TypeId(at)) = Owner::of_types(&self.types).basic(whole) else { return None };
         match &self.types.get(at as usize)?.shape {
             Shape::Array { element, .. } => (sub > 0).then_some(*element),
             Shape::Record(fields) if fields.len() == count => fields.get(position).map(|field| field.ty),

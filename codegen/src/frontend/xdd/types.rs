@@ -6,7 +6,6 @@ use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::xml::Order;
 use crate::ir::{Field, Shape, Type, TypeDef, TypeId};
-use crate::limits;
 
 /// Converts the data types of the application process to types of the device, in the same order.
 pub(super) fn lower<'a>(reader: &mut Reader<'a, '_>, application: &mut Application<'a>) -> Vec<TypeDef> {
@@ -142,19 +141,4 @@ impl<'a> Application<'a> {
             },
         }
     }
-}
-
-/// Returns the type on which an alias, an enumeration or a scaled type is based. Returns any other type unchanged.
-pub(super) fn underlying(types: &[TypeDef], ty: Type) -> Type {
-    let mut ty = ty;
-    // Types of the application process have no cycles. The loop is limited because types that objects define may have
-    // cycles.
-    for _ in 0..=limits::MAX_XML_DEPTH {
-        let Type::Named(TypeId(at)) = ty else { return ty };
-        match types.get(at as usize).map(|def| &def.shape) {
-            Some(Shape::Alias(base) | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. }) => ty = *base,
-            _ => return ty,
-        }
-    }
-    ty
 }
