@@ -32,7 +32,7 @@ empty() {
     *.[eE][dD][sS] | *.[dD][cC][fF]) printf '[FileInfo]\nFileName=a.eds\n[1000]\nParameterName=a\nDataType=7\nAccessType=ro\n' ;;
     *) printf '<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices><Device Physics="YY"><Type ProductCode="1">a</Type></Device></Devices></Descriptions></EtherCATInfo>' ;;
     esac >"$work/empty.${1##*.}"
-    "$lexibus" check "$work/empty.${1##*.}" -A warnings >/dev/null
+    "$lexibus" check "$work/empty.${1##*.}" -A warnings >"$work/messages" 2>&1 || { cat "$work/messages" >&2; return 1; }
     echo "$work/empty.${1##*.}"
 }
 

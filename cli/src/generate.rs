@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use lexibus_codegen::backend::rust;
-use lexibus_codegen::compile::{self, Compilation};
+use lexibus_codegen::compile::NOTHING_TO_GENERATE;
+use lexibus_codegen::ir::Catalog;
 use lexibus_export::json;
 
 use super::args::Generate;
@@ -20,21 +21,23 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     target.is_reported = true;
     inputs::each_by_path(&generate.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        match compilation.rust(&rust_options) {
-            Some(text) => {
-                if target.is_one_file() {
-                    reporter.progress(&format!("read {}", summary_line(&json::info(&compilation))));
-                }
-                target.put(|| file_name(input, &compilation), "rs", &text, &mut reporter)
-            }
-            // The errors in the input have already been reported. If there are several inputs, an input without a
-            // device is skipped.
-            None if !compilation.is_usable() || target.many => Ok(()),
-            None => {
-                reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));
-                Ok(())
-            }
+        // The errors in the input have already been reported.
+        if !compilation.is_usable() {
+            return Ok(());
         }
+        if target.is_one_file() {
+            reporter.progress(&format!("read {}", summary_line(&json::info(&compilation))));
+        }
+        let Some(catalog) = compilation.into_usable() else { return Ok(()) };
+        let write = |sink: &mut dyn FnMut(&[u8])| {
+            rust::write_catalog(&catalog, &rust_options, &mut |part| sink(part.as_bytes()))
+        };
+        let exists = target.put_parts(|| file_name(input, &catalog), "rs", &mut reporter, write)?;
+        // If there are several inputs, an input without a device is skipped.
+        if !exists && !target.many {
+            reporter.error(&format!("{}: {}", input.display(), NOTHING_TO_GENERATE));
+        }
+        Ok(())
     })?;
     target.summarize(&mut reporter);
     reporter.finish()
@@ -42,11 +45,9 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
 
 /// Returns the name of the output file: the input's file name in snake case. If the file name gives no valid name,
 /// returns the name of the first device, or `device` if there is no device.
-fn file_name(input: &Path, compilation: &Compilation) -> String {
+fn file_name(input: &Path, catalog: &Catalog) -> String {
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let name = rust::file_name(&stem).or_else(|| {
-        let catalog = compilation.catalog.as_ref()?;
-        Some(rust::module_name(catalog.devices.first()?, catalog.files.first()?))
-    });
+    let name =
+        rust::file_name(&stem).or_else(|| Some(rust::module_name(catalog.devices.first()?, catalog.files.first()?)));
     name.unwrap_or_else(|| "device".to_owned())
 }

@@ -1,10 +1,10 @@
 //! Writes the output of a command to files or standard output, or compares it with existing files.
 
 use std::collections::BTreeSet;
-use std::io::{BufRead, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use lexibus_codegen::output::{is_no_regular_file, write_if_changed};
+use lexibus_codegen::output::{is_no_regular_file, Writer};
 
 use super::args::Inputs;
 use super::files::{cannot_write, create_folder};
@@ -59,23 +59,60 @@ impl<'g> Target<'g> {
         content: impl AsRef<[u8]>,
         reporter: &mut Reporter,
     ) -> Result<(), Failure> {
-        let content = content.as_ref();
+        let write = |sink: &mut dyn FnMut(&[u8])| {
+            sink(content.as_ref());
+            true
+        };
+        self.put_parts(name, ending, reporter, write).map(|_| ())
+    }
+
+    /// Does the same as [`put`](Self::put) for an output that `write` passes to its argument in parts. If `write` returns false,
+    /// there is no output. Returns whether there is one.
+    pub(super) fn put_parts(
+        &mut self,
+        name: impl FnOnce() -> String,
+        ending: &str,
+        reporter: &mut Reporter,
+        write: impl FnOnce(&mut dyn FnMut(&[u8])) -> bool,
+    ) -> Result<bool, Failure> {
         let Some(out) = self.out else {
-            std::io::stdout().lock().write_all(content)?;
-            return Ok(());
+            let (mut stdout, mut written) = (std::io::stdout().lock(), Ok(()));
+            let exists = write(&mut |part| {
+                if written.is_ok() {
+                    written = stdout.write_all(part);
+                }
+            });
+            written?;
+            return Ok(exists);
         };
         let path = if self.is_folder { self.file_in(out, &name(), ending) } else { out.to_owned() };
         if self.check {
-            check_bytes(&path, content, reporter);
-        } else if let Err(error) = write_if_changed(&path, content) {
-            reporter.error(&cannot_write(&path, &error));
-        } else {
-            self.files += 1;
-            if self.is_one_file() && self.is_reported {
-                reporter.progress(&format!("wrote {}: {} lines", path.display(), content.lines().count()));
+            let mut content = Vec::new();
+            let exists = write(&mut |part| content.extend_from_slice(part));
+            match exists {
+                true => check_bytes(&path, &content, reporter),
+                false => _ = self.names.remove(&path),
             }
+            return Ok(exists);
         }
-        Ok(())
+        let (mut writer, mut lines) = (Writer::new(&path), 0);
+        let exists = write(&mut |part| {
+            lines += part.iter().filter(|byte| **byte == b'\n').count();
+            writer.push(part);
+        });
+        if !exists {
+            self.names.remove(&path);
+            return Ok(false);
+        }
+        if let Err(error) = writer.finish() {
+            reporter.error(&cannot_write(&path, &error));
+            return Ok(true);
+        }
+        self.files += 1;
+        if self.is_one_file() && self.is_reported {
+            reporter.progress(&format!("wrote {}: {lines} lines", path.display()));
+        }
+        Ok(true)
     }
 
     /// Returns whether the output of a single input is written to files. If so, commands print a message with details

@@ -3,10 +3,11 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use crate::backend::rust::{Presence, RustOptions};
+use crate::backend::rust::{emit_catalog, write_catalog, Presence, RustOptions};
 use crate::compile::{self, Compilation, Options};
 use crate::diagnostics::{render, Level, Levels, Severity, UnknownCode};
-use crate::output::write_if_changed;
+use crate::ir::Catalog;
+use crate::output::Writer;
 use crate::selection::SelectionError;
 use crate::source::Source;
 
@@ -206,13 +207,17 @@ impl Builder {
         let input = input.as_ref();
         let stem = input.file_stem().map_or_else(|| "device".into(), |stem| stem.to_string_lossy());
         let name = name.map_or_else(|| format!("{stem}.rs"), str::to_owned);
-        let text = self.generate(input)?;
+        let catalog = self.check(input)?;
         let directory = match &self.out_dir {
             Some(directory) => directory.clone(),
             None => std::env::var_os("OUT_DIR").map(PathBuf::from).ok_or(BuildError::NoOutDir)?,
         };
         let path = directory.join(name);
-        write_if_changed(&path, &text).map_err(|error| BuildError::Write { path, error })
+        let mut writer = Writer::new(&path);
+        if !write_catalog(&catalog, &self.options.rust, &mut |part| writer.push(part.as_bytes())) {
+            return Err(BuildError::Empty { path: input.into() });
+        }
+        writer.finish().map_err(|error| BuildError::Write { path: path.clone(), error })
     }
 
     /// Returns the Rust code for `input`.
@@ -223,6 +228,13 @@ impl Builder {
     /// fails if a level is set for an unknown code, or a filter is invalid.
     pub fn generate(&self, input: impl AsRef<Path>) -> Result<String, BuildError> {
         let input = input.as_ref();
+        let text = emit_catalog(&self.check(input)?, &self.options.rust);
+        text.ok_or_else(|| BuildError::Empty { path: input.into() })
+    }
+
+    /// Reads and checks `input`. Reports the diagnostics and the files that were read to Cargo. Returns an error if there are errors
+    /// in the input.
+    fn check(&self, input: &Path) -> Result<Catalog, BuildError> {
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
         let options = self.options()?;
         let source = Source::read(input).map_err(|error| BuildError::Read { path: input.into(), error })?;
@@ -238,7 +250,7 @@ impl Builder {
         if !compilation.is_usable() {
             return Err(BuildError::Input(errors(&compilation)));
         }
-        compilation.rust(&options.rust).ok_or_else(|| BuildError::Empty { path: input.into() })
+        compilation.into_usable().ok_or_else(|| BuildError::Empty { path: input.into() })
     }
 
     fn options(&self) -> Result<Options, BuildError> {

@@ -80,10 +80,15 @@ impl Compilation {
 
     /// Returns the generated Rust module, or `None` if there are errors or nothing to generate.
     pub fn rust(&self, options: &RustOptions) -> Option<String> {
-        if !self.is_usable() {
-            return None;
-        }
-        rust::emit_catalog(self.catalog.as_ref()?, options)
+        rust::emit_catalog(self.usable()?, options)
+    }
+
+    /// Returns the catalog, or `None` if the compilation cannot produce output. Drops the text of the source files, which only
+    /// diagnostics need.
+    pub fn into_usable(self) -> Option<Catalog> {
+        let mut catalog = self.is_usable().then_some(self.catalog).flatten()?;
+        catalog.files.iter_mut().for_each(|file| file.sha256 = file.sha256.as_str().to_owned().into());
+        Some(catalog)
     }
 }
 

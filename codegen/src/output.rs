@@ -1,7 +1,7 @@
 //! Writes files only if their content has changed, and replaces regular files atomically.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{BufRead, BufReader, Error, ErrorKind, Result, Write};
+use std::io::{BufRead, BufReader, Error, ErrorKind, Read, Result, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
@@ -35,57 +35,163 @@ pub fn is_no_regular_file(path: &Path) -> bool {
 ///
 /// Returns the error of the operating system, or an error if `path` has no file name.
 pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
-    let content = content.as_ref();
-    if is_no_regular_file(path) {
-        return OpenOptions::new().write(true).open(path)?.write_all(content);
-    }
-    if has_content(path, content).unwrap_or(false) {
-        return Ok(());
-    }
-    let _writing = writing();
-    match fs::canonicalize(path) {
-        Ok(target) => replace(&target, content),
-        // `path` is a symbolic link whose target does not exist yet.
-        Err(_) if path.is_symlink() => fs::write(path, content),
-        Err(error) if error.kind() == ErrorKind::NotFound => replace(path, content),
-        Err(error) => Err(error),
-    }
+    let mut writer = Writer::new(path);
+    writer.push(content.as_ref());
+    writer.finish()
 }
 
-/// Returns whether a file has this content. Reads the file in parts, and only if it has the same length.
-fn has_content(path: &Path, mut content: &[u8]) -> Result<bool> {
-    let file = File::open(path)?;
-    if file.metadata()?.len() != content.len() as u64 {
-        return Ok(false);
+/// Writes a file like [`write_if_changed`], but in parts.
+///
+/// As long as the parts are equal to the content of the file, nothing is written. A writer that is dropped without a call of
+/// [`finish`](Self::finish) leaves a regular file as it was.
+#[derive(Debug)]
+pub struct Writer<'p> {
+    path: &'p Path,
+    state: Result<State>,
+}
+
+#[derive(Debug)]
+enum State {
+    /// All bytes so far are equal to those at the beginning of the old file. `old` contains the following bytes.
+    Equal {
+        old: Option<BufReader<File>>,
+        count: u64,
+    },
+    Writing {
+        file: File,
+        replacement: Option<Replacement>,
+    },
+}
+
+/// A temporary file, and the file that it will replace. A temporary file that has not replaced a file is removed.
+#[derive(Debug)]
+struct Replacement {
+    temporary: PathBuf,
+    target: PathBuf,
+    is_complete: bool,
+    _writing: RwLockReadGuard<'static, ()>,
+}
+
+impl<'p> Writer<'p> {
+    /// Creates a writer for the file `path`.
+    pub fn new(path: &'p Path) -> Self {
+        let state = if is_no_regular_file(path) {
+            let file = OpenOptions::new().write(true).open(path);
+            file.map(|file| State::Writing { file, replacement: None })
+        } else {
+            Ok(State::Equal { old: File::open(path).ok().map(BufReader::new), count: 0 })
+        };
+        Writer { path, state }
     }
-    let mut file = BufReader::new(file);
-    loop {
-        let part = file.fill_buf()?;
-        let length = part.len();
-        match content.strip_prefix(part) {
-            Some(rest) if length > 0 => content = rest,
-            rest => return Ok(rest.is_some_and(<[u8]>::is_empty)),
+
+    /// Adds bytes to the content. An error is returned by [`finish`](Self::finish).
+    pub fn push(&mut self, part: &[u8]) {
+        if let Ok(state) = &mut self.state {
+            if let Err(error) = state.push(self.path, part) {
+                self.state = Err(error);
+            }
         }
-        file.consume(length);
+    }
+
+    /// Ends the content, and replaces the old file if it has another content.
+    ///
+    /// # Errors
+    ///
+    /// Returns the first error of the operating system, or an error if the path has no file name.
+    pub fn finish(self) -> Result<()> {
+        let mut state = self.state?;
+        if let State::Equal { old, .. } = &mut state {
+            let rest = old.as_mut().map(BufRead::fill_buf);
+            if rest.is_some_and(|rest| rest.is_ok_and(<[u8]>::is_empty)) {
+                return Ok(());
+            }
+            state.start(self.path)?;
+        }
+        match state {
+            State::Writing { file, replacement: Some(replacement) } => {
+                drop(file);
+                replacement.rename()
+            }
+            State::Writing { .. } | State::Equal { .. } => Ok(()),
+        }
     }
 }
 
-/// Writes a temporary file next to `path`, and renames it to `path`.
-fn replace(path: &Path, content: &[u8]) -> Result<()> {
-    let (file, temporary) = temporary(path)?;
-    let written = fill(file, path, content).and_then(|()| fs::rename(&temporary, path));
-    if written.is_err() {
-        // The temporary file is incomplete, or was not renamed.
-        let _ = fs::remove_file(&temporary);
+impl State {
+    fn push(&mut self, path: &Path, mut part: &[u8]) -> Result<()> {
+        if let State::Equal { old: Some(old), count } = self {
+            let equal = skip_equal(old, part);
+            *count += equal as u64;
+            part = &part[equal..];
+        }
+        if !part.is_empty() {
+            self.start(path)?;
+        }
+        match self {
+            State::Writing { file, .. } => file.write_all(part),
+            State::Equal { .. } => Ok(()),
+        }
     }
-    written
+
+    /// Creates the file to which the content is written, unless this has been done. Copies the bytes that are equal.
+    fn start(&mut self, path: &Path) -> Result<()> {
+        let State::Equal { old, count } = self else { return Ok(()) };
+        let (mut file, replacement) = Replacement::create(path)?;
+        if let Some(mut old) = old.take().map(BufReader::into_inner).filter(|_| *count > 0) {
+            old.rewind()?;
+            std::io::copy(&mut old.take(*count), &mut file)?;
+        }
+        *self = State::Writing { file, replacement };
+        Ok(())
+    }
 }
 
-fn fill(mut file: File, path: &Path, content: &[u8]) -> Result<()> {
-    file.write_all(content)?;
-    match fs::metadata(path) {
-        Ok(old) => file.set_permissions(old.permissions()),
-        Err(_) => Ok(()),
+/// Reads the bytes of a file that are equal to those at the beginning of `part`, and returns their number.
+fn skip_equal(old: &mut BufReader<File>, part: &[u8]) -> usize {
+    let mut count = 0;
+    while let Ok(bytes) = old.fill_buf() {
+        let equal = bytes.iter().zip(&part[count..]).take_while(|(old, new)| old == new).count();
+        let is_end = equal == 0 || equal < bytes.len();
+        old.consume(equal);
+        count += equal;
+        if is_end {
+            break;
+        }
+    }
+    count
+}
+
+impl Replacement {
+    /// Opens the file to which the new content of `path` is written: a temporary file next to it or, if `path` is a symbolic link
+    /// whose target does not exist yet, the target.
+    fn create(path: &Path) -> Result<(File, Option<Self>)> {
+        let _writing = writing();
+        let target = match fs::canonicalize(path) {
+            Ok(target) => target,
+            Err(_) if path.is_symlink() => return Ok((File::create(path)?, None)),
+            Err(error) if error.kind() == ErrorKind::NotFound => path.to_owned(),
+            Err(error) => return Err(error),
+        };
+        let (file, temporary) = temporary(&target)?;
+        let replacement = Replacement { temporary, target, is_complete: false, _writing };
+        if let Ok(old) = fs::metadata(&replacement.target) {
+            file.set_permissions(old.permissions())?;
+        }
+        Ok((file, Some(replacement)))
+    }
+
+    fn rename(mut self) -> Result<()> {
+        fs::rename(&self.temporary, &self.target)?;
+        self.is_complete = true;
+        Ok(())
+    }
+}
+
+impl Drop for Replacement {
+    fn drop(&mut self) {
+        if !self.is_complete {
+            let _ = fs::remove_file(&self.temporary);
+        }
     }
 }
 
@@ -132,12 +238,45 @@ mod tests {
     fn files_are_replaced_without_temporary_files() {
         let folder = folder("replaced");
         let path = folder.join("a.rs");
-        for text in ["one", "two", "two", ""] {
+        for text in ["one", "two", "two", "two and a half", "two and one", "two", ""] {
             write_if_changed(&path, text).unwrap();
             assert_eq!(fs::read_to_string(&path).unwrap(), text);
         }
         assert!(write_if_changed(&folder, "x").is_err(), "a folder");
         assert!(write_if_changed(&folder.join("missing/a.rs"), "x").is_err());
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    /// Writes parts and returns whether the file was written.
+    fn is_written(path: &Path, parts: &[&str]) -> bool {
+        let long_ago = std::time::SystemTime::UNIX_EPOCH;
+        File::options().write(true).open(path).unwrap().set_modified(long_ago).unwrap();
+        let mut writer = Writer::new(path);
+        parts.iter().for_each(|part| writer.push(part.as_bytes()));
+        writer.finish().unwrap();
+        assert_eq!(fs::read_to_string(path).unwrap(), parts.concat());
+        fs::metadata(path).unwrap().modified().unwrap() != long_ago
+    }
+
+    #[test]
+    fn parts_are_written_from_the_first_difference() {
+        let folder = folder("parts");
+        let path = folder.join("a.rs");
+        let long = "0123456789".repeat(3000);
+        fs::write(&path, format!("{long}{long}")).unwrap();
+        assert!(!is_written(&path, &[&long, "", &long]));
+        assert!(!is_written(&path, &[&long[..9], &long[9..], &long]));
+        assert!(is_written(&path, &[&long, &long, "x"]));
+        assert!(is_written(&path, &[&long, "x", &long]));
+        assert!(is_written(&path, &["y", &long]));
+        assert!(is_written(&path, &["y"]));
+        assert!(is_written(&path, &["y", &long]));
+
+        let mut dropped = Writer::new(&path);
+        dropped.push(b"z");
+        drop(dropped);
+        assert_eq!(fs::read_to_string(&path).unwrap(), format!("y{long}"));
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(folder).unwrap();
     }

@@ -6,7 +6,7 @@ use super::device_names::module_name;
 use super::ethercat::ModulePaths;
 use super::model::Model;
 use super::options::RustOptions;
-use super::{docs, header, print, profiles};
+use super::{docs, print, profiles};
 use crate::collections::{HashMap, HashSet};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::names::{self, Case, NameRequest};
@@ -33,11 +33,11 @@ const RESERVED: [&str; 18] = [
     "image",
 ];
 
-pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
+/// Adds the devices and modules of `catalog` to `code`. Returns false if there are none.
+pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions, mut code: Code<'_>) -> bool {
     let (modules, names) = named_modules(catalog);
-    let mut code = Code::new(header(file), &options.runtime);
     match catalog.devices.as_slice() {
-        [] if modules.is_empty() => return None,
+        [] if modules.is_empty() => return false,
         [] => {}
         [device] => {
             let paths = paths(&modules, &names, "modules");
@@ -64,7 +64,8 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             }
         });
     }
-    Some(code.finish())
+    code.finish();
+    true
 }
 
 /// Returns the modules for which code is generated, and the names of their Rust modules.

@@ -109,6 +109,13 @@ pub(super) fn method(
     lines
 }
 
+/// Frees the unused capacity of lines. Each item of a device has several such lists, so their unused capacity adds up.
+pub(super) fn exact(mut lines: Vec<String>) -> Vec<String> {
+    lines.iter_mut().for_each(String::shrink_to_fit);
+    lines.shrink_to_fit();
+    lines
+}
+
 /// Returns `name: facts`, or only the facts if the name is empty.
 fn titled(name: &str, facts: &str) -> String {
     match escape(name.trim()).trim_end_matches('.') {
@@ -142,7 +149,7 @@ pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: Do
 
 /// Returns the lines of a doc comment, in which empty lines separate the paragraphs.
 pub(super) fn paragraphs(paragraphs: impl IntoIterator<Item = String>) -> Vec<String> {
-    separated(paragraphs).skip(1).collect()
+    exact(separated(paragraphs).skip(1).collect())
 }
 
 /// Returns the paragraphs, with an empty line before each of them.

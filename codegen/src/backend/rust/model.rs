@@ -202,9 +202,4 @@ impl Model {
         #[cfg(not(feature = "messages"))]
         false
     }
-
-    pub(super) fn size_hint(&self) -> usize {
-        let items: usize = self.objects.iter().map(|object| object.items.len()).sum();
-        4096 + items * 900 + self.pdos.len() * 4096 + self.table.as_ref().map_or(0, |table| table.len() * 400)
-    }
 }

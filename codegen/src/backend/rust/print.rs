@@ -28,7 +28,6 @@ use super::named::Types;
 /// Prints a device or a module of a modular device. Drops large parts of the model as soon as they are printed, because
 /// the model needs more memory than the text.
 pub(super) fn model(code: &mut Code, mut model: Model) {
-    code.reserve(model.size_hint());
     device::write(code, &model);
     accessors::write(code, &mut model);
     given::models(code, &model.models);

@@ -77,7 +77,7 @@ mod tests {
         // Changes to this file are lost when it is generated again.\n\n\
         //! Types, code tables and state machines of CiA 301, CiA 402 and CoE.\n//!\n\
         //! Bindings re-export those that their device uses: the modules `types` and `codes` of a device contain the\n\
-        //! re-exports and the definitions of the device itself.\n";
+        //! re-exports and the definitions of the device itself.\n\n";
 
     /// Returns the first phrase of an object's description and the index of the object: `the active mode of operation (0x6061)`.
     fn name(described: &profiles::Described) -> CompactString {

@@ -12,8 +12,8 @@ use crate::number::hex16;
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
-    /// Marks, each with its byte offset in the text.
-    marks: Vec<(usize, Mark)>,
+    /// Marks, each with its byte offset in the text. A document is a construct of a few lines, so 32 bits are enough.
+    marks: Vec<(u32, Mark)>,
 }
 
 /// The meaning of a position in a document.
@@ -83,7 +83,7 @@ impl Piece for CompactString {
 
 impl Piece for Doc {
     fn put(&self, to: &mut Doc) {
-        let start = to.text.len();
+        let start = to.end();
         to.text.push_str(&self.text);
         to.marks.extend(self.marks.iter().map(|(at, mark)| (at + start, *mark)));
     }
@@ -132,7 +132,14 @@ impl Doc {
     pub fn of(pieces: &[&dyn Piece]) -> Self {
         let mut doc = Doc::default();
         pieces.iter().for_each(|piece| piece.put(&mut doc));
-        doc
+        doc.exact()
+    }
+
+    /// Frees the unused capacity. The model of a device contains many documents, so their unused capacity adds up.
+    fn exact(mut self) -> Self {
+        self.text.shrink_to_fit();
+        self.marks.shrink_to_fit();
+        self
     }
 
     /// Returns the text of the document, on one line.
@@ -140,8 +147,9 @@ impl Doc {
         &self.text
     }
 
-    pub(super) fn marks(&self) -> &[(usize, Mark)] {
-        &self.marks
+    /// Returns the marks from a position on, each with its byte offset in the text.
+    pub(super) fn marks(&self, from: usize) -> impl Iterator<Item = (usize, Mark)> + '_ {
+        self.marks.get(from..).unwrap_or_default().iter().map(|(at, mark)| (*at as usize, *mark))
     }
 
     /// Removes all text and all marks from the document.
@@ -151,7 +159,11 @@ impl Doc {
     }
 
     fn mark(&mut self, mark: Mark) {
-        self.marks.push((self.text.len(), mark));
+        self.marks.push((self.end(), mark));
+    }
+
+    fn end(&self) -> u32 {
+        u32::try_from(self.text.len()).unwrap_or(u32::MAX)
     }
 
     /// Creates a list of members between `start` and `end`.
@@ -167,7 +179,7 @@ impl Doc {
         }
         doc.mark(Mark::Close);
         doc.text.push_str(end);
-        doc
+        doc.exact()
     }
 
     /// Creates a list from members of different types.

@@ -8,26 +8,24 @@ pub(in crate::backend::rust) const MARGIN: usize = 89;
 /// Number of spaces per indentation level.
 pub(super) const STEP: usize = 4;
 
-/// Writes a document on a new line with the given indentation. `out` must not end with a line break.
+/// Writes a document with the given indentation and ends the line.
 pub(super) fn write(doc: &Doc, indent: usize, out: &mut String) {
-    newline(out, indent);
+    self::indent(out, indent);
     let text = doc.text();
-    if doc.marks().is_empty() || indent + text.len() <= MARGIN && !doc.has_long() {
-        out.push_str(text);
+    if doc.marks(0).next().is_none() || indent + text.len() <= MARGIN && !doc.has_long() {
+        out.extend([text, "\n"]);
         return;
     }
     let mut printer = Printer { doc, out, at: 0, column: indent, indent, open: Vec::new() };
-    for position in 0..doc.marks().len() {
-        printer.mark(position);
+    for (position, (offset, mark)) in doc.marks(0).enumerate() {
+        printer.mark(position, offset, mark);
     }
     printer.text_to(text.len());
+    out.push('\n');
 }
 
-/// Starts a new line with the given indentation.
-pub(super) fn newline(out: &mut String, indent: usize) {
-    if !out.is_empty() {
-        out.push('\n');
-    }
+/// Writes the spaces at the beginning of a line.
+pub(super) fn indent(out: &mut String, indent: usize) {
     out.extend(std::iter::repeat_n(' ', indent));
 }
 
@@ -49,8 +47,7 @@ struct Printer<'d, 'o> {
 }
 
 impl Printer<'_, '_> {
-    fn mark(&mut self, position: usize) {
-        let Some(&(offset, mark)) = self.doc.marks().get(position) else { return };
+    fn mark(&mut self, position: usize, offset: usize, mark: Mark) {
         self.text_to(offset);
         let may_break = self.open.last().is_none_or(|list| list.is_broken);
         match mark {
@@ -98,8 +95,8 @@ impl Printer<'_, '_> {
 
     /// Returns the width of the next member with the space before it. A comma is included if another member follows.
     fn width_of_next(&self, position: usize) -> usize {
-        let next_mark = self.doc.marks().get(position + 1);
-        next_mark.map_or(0, |(offset, mark)| offset - self.at + usize::from(*mark == Mark::Next))
+        let next_mark = self.doc.marks(position + 1).next();
+        next_mark.map_or(0, |(offset, mark)| offset - self.at + usize::from(mark == Mark::Next))
     }
 
     fn text_to(&mut self, end: usize) {
@@ -117,7 +114,8 @@ impl Printer<'_, '_> {
     }
 
     fn newline(&mut self) {
-        newline(self.out, self.indent);
+        self.out.push('\n');
+        indent(self.out, self.indent);
         self.column = self.indent;
     }
 
@@ -126,10 +124,8 @@ impl Printer<'_, '_> {
     /// [`MARGIN`], or if a struct in the construct needs several lines.
     fn width(&self, position: usize) -> usize {
         let (mut depth, mut is_inside) = (0_usize, true);
-        let marks = self.doc.marks().get(position..).unwrap_or_default();
-        let start = marks.first().map_or(0, |(offset, _)| *offset);
-        let begins = marks.first().is_some_and(|(_, mark)| *mark == Mark::Soft);
-        for (offset, mark) in marks.iter().skip(usize::from(begins)) {
+        let Some((start, first)) = self.doc.marks(position).next() else { return 0 };
+        for (offset, mark) in self.doc.marks(position + usize::from(first == Mark::Soft)) {
             if offset - start > MARGIN {
                 return usize::MAX;
             }
@@ -157,7 +153,7 @@ mod tests {
     fn written(indent: usize, doc: &Doc) -> String {
         let mut out = String::new();
         write(doc, indent, &mut out);
-        out + "\n"
+        out
     }
 
     #[test]

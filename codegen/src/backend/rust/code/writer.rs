@@ -1,14 +1,19 @@
 //! Writes the code of a module: lines, blocks and doc comments.
 
 use super::doc::{Doc, Piece};
-use super::layout::{self, newline, STEP};
+use super::layout::{self, indent, STEP};
 
-/// Number of bytes that are enough for the indentation and the line breaks of most lines.
-const LINE: usize = 128;
+/// Size of the parts in which the text is passed to its receiver, in bytes.
+const PART: usize = 32 * 1024;
+
+/// Receives the parts of a text in their order.
+pub type Sink<'s> = &'s mut dyn FnMut(&str);
 
 /// Writes Rust code line by line.
-pub struct Code {
+pub struct Code<'s> {
+    /// Text that the receiver has not got yet, or the complete text if there is no receiver.
     out: String,
+    sink: Option<Sink<'s>>,
     indent: usize,
     /// Buffer for the line that is being assembled.
     line: Doc,
@@ -17,10 +22,15 @@ pub struct Code {
     has_docs: bool,
 }
 
-impl Code {
-    /// Creates code that begins with the text `start`. `runtime` is the path of the runtime crate.
+impl<'s> Code<'s> {
+    /// Creates code that begins with the lines `start`. `runtime` is the path of the runtime crate.
     pub fn new(start: String, runtime: &str) -> Self {
-        Code { out: start, indent: 0, line: Doc::default(), runtime: runtime.to_owned(), has_docs: true }
+        Code { out: start, sink: None, indent: 0, line: Doc::default(), runtime: runtime.to_owned(), has_docs: true }
+    }
+
+    /// Creates code that is passed to `sink` in parts, because the text of a large device needs more memory than its description.
+    pub fn to(sink: Sink<'s>, start: String, runtime: &str) -> Self {
+        Code { sink: Some(sink), ..Code::new(start, runtime) }
     }
 
     /// Creates empty code in which doc comments are left out.
@@ -33,17 +43,17 @@ impl Code {
         &self.runtime
     }
 
-    /// Returns the complete text with a line break at the end.
+    /// Passes the rest of the text to the receiver. Returns the complete text if there is no receiver.
     pub fn finish(mut self) -> String {
-        self.out.push('\n');
+        self.pass(0);
         self.out
     }
 
-    /// Reserves memory for additional bytes of code. The text of a large device is the largest allocation of the compiler,
-    /// so it grows by a quarter instead of doubling.
-    pub fn reserve(&mut self, bytes: usize) {
-        if self.out.capacity() - self.out.len() < bytes {
-            self.out.reserve_exact(bytes.max(self.out.len() / 4));
+    /// Passes the text to the receiver if there is one and the text has at least `least` bytes.
+    fn pass(&mut self, least: usize) {
+        if let Some(sink) = self.sink.as_mut().filter(|_| self.out.len() >= least) {
+            sink(&self.out);
+            self.out.clear();
         }
     }
 
@@ -52,9 +62,9 @@ impl Code {
         let mut line = std::mem::take(&mut self.line);
         line.clear();
         pieces.iter().for_each(|piece| piece.put(&mut line));
-        self.reserve(2 * line.text().len() + LINE);
         layout::write(&line, self.indent, &mut self.out);
         self.line = line;
+        self.pass(PART);
     }
 
     /// Writes a line that opens a block. The pieces include the brace.
@@ -101,9 +111,8 @@ impl Code {
         if !self.has_docs {
             return;
         }
-        self.reserve(text.len() + LINE);
-        newline(&mut self.out, self.indent);
-        self.out.extend(["///", if text.is_empty() { "" } else { " " }, text]);
+        indent(&mut self.out, self.indent);
+        self.out.extend(["///", if text.is_empty() { "" } else { " " }, text, "\n"]);
     }
 
     /// Writes a doc comment of several lines.

@@ -31,12 +31,13 @@ pub(in crate::backend::rust) struct CallModel {
     pub after: Option<String>,
 }
 
-/// Returns the methods that send requests.
+/// Returns the methods that send requests. `documentation` returns the documentation of a message.
 pub(super) fn calls(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],
     rules: &Rules,
     reserved: &[&str],
+    documentation: impl Fn(&Message) -> Vec<String>,
 ) -> Vec<CallModel> {
     let with =
         || shaped.iter().zip(messages).filter_map(|(shape, model)| Some((shape, model, model.request.as_ref()?)));
@@ -60,7 +61,7 @@ pub(super) fn calls(
         let selector = selector(shaped, messages, shape.message.after.as_ref());
         calls.push(CallModel {
             method: names::escaped(&name),
-            docs: docs(model, request),
+            docs: docs(documentation(shape.message), request),
             ty: format!("{ty}{lifetime}"),
             arguments,
             build,
@@ -86,9 +87,10 @@ fn arguments(fields: &[Field]) -> Vec<String> {
 }
 
 /// Returns the documentation of a method: the documentation of the message, and a link to the type of the request.
-fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
+fn docs(mut docs: Vec<String>, request: &DataModel) -> Vec<String> {
     let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
-    model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
+    docs.extend([String::new(), sends]);
+    docs
 }
 
 /// Returns the type of the message that brings the driver into its state after power-on. Returns `None` if the description

@@ -39,8 +39,6 @@ pub(in super::super) struct ProtocolModel {
 /// A message, which consists of a request, a reply, or both, ready to be printed.
 pub(in super::super) struct MessageModel {
     pub title: String,
-    /// Documentation of the method that sends the request.
-    pub call_docs: Vec<String>,
     /// The request. `None` if only the device sends the message.
     pub request: Option<DataModel>,
     /// The reply. `None` if the description contains no reply.
@@ -112,7 +110,11 @@ impl ProtocolModel {
         for (shape, model) in shapes.iter().zip(&mut messages) {
             model.outcomes = outcomes.remove(&shape.id).unwrap_or_default();
         }
-        let calls = if options.accessors { device::calls(shapes, &messages, &rules, reserved) } else { Vec::new() };
+        let documentation = |message: &Message| make.documentation(message, DocModule::TOP);
+        let calls = match options.accessors {
+            true => device::calls(shapes, &messages, &rules, reserved, documentation),
+            false => Vec::new(),
+        };
         Some(ProtocolModel {
             framing: device.framing.as_deref().and_then(|framing| framing::constant(framing, shapes)),
             framing_docs: device
@@ -202,7 +204,6 @@ impl Maker<'_, '_> {
         });
         MessageModel {
             title: super::super::literal::string(&message.name),
-            call_docs: self.documentation(message, DocModule::TOP),
             request,
             reply,
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),

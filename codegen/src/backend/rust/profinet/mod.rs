@@ -18,9 +18,9 @@ mod usage;
 mod values;
 
 use super::code::{line, Code, Doc};
-use super::{header, literal, print};
+use super::{literal, print};
 use super::{RustOptions, INTERFACE_VERSION};
-use crate::ir::{Catalog, FileInfo};
+use crate::ir::Catalog;
 pub(super) use descriptor::{DapModel, ModuleModel, SubmoduleModel};
 pub(super) use diagnosis::UnitModel;
 pub(super) use f_record::FRecordModel;
@@ -46,18 +46,17 @@ pub(super) struct FileModel<'a> {
     pub units: Vec<UnitModel>,
 }
 
-/// Returns the Rust module for all device access points of `catalog`. Returns `None` if `catalog` has no device access
-/// point.
-pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
+/// Adds all device access points of `catalog` to `code`. Returns false if there are none.
+pub(super) fn emit(catalog: &Catalog, options: &RustOptions, mut code: Code<'_>) -> bool {
     let scope = Scope::new(catalog, options);
     if scope.access_points.is_empty() {
-        return None;
+        return false;
     }
-    let mut code = Code::new(header(file), &options.runtime);
     code.use_runtime();
     line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
     print::profinet::write(&mut code, &FileModel::new(&scope));
-    Some(code.finish())
+    code.finish();
+    true
 }
 
 impl<'a> FileModel<'a> {
