@@ -8,7 +8,7 @@ use super::item_addresses::ItemAddresses;
 use super::item_type::ItemType;
 use super::links::DocModule;
 use super::locations::Locations;
-use super::naming::handles::NamedItem;
+use super::naming::handles::{constant, NamedItem};
 use crate::ir::{Access, ItemId};
 use crate::names;
 
@@ -75,11 +75,6 @@ pub(super) struct Title<'n> {
 
 /// Path from the module of the handles to the device's module.
 const OUTER: &str = "super::";
-
-/// Returns the name of an item's constant. `name` is the name of the item's handle.
-pub(super) fn constant(name: &str) -> String {
-    name.to_ascii_uppercase()
-}
 
 /// Returns the model of an item. `method_module` is the module that contains the item's accessor.
 pub(super) fn model(

@@ -4,7 +4,7 @@
 
 use super::located::Located;
 use super::naming::composites::NamedComposite;
-use super::naming::handles::{is_cased, HandleNames, NamedItem};
+use super::naming::handles::{constant, constant_path, is_cased, HandleNames, NamedItem};
 use super::naming::pdos::{NamedField, NamedPdo};
 use super::naming::Names;
 use super::options::RustOptions;
@@ -196,7 +196,7 @@ impl Links {
                     self.add_handle(scope, entry, device);
                     continue;
                 };
-                let constant = format!("objects::{}::{}", object.name, entry.name.to_ascii_uppercase());
+                let constant = constant_path(Some(&object.name), &constant(&entry.name));
                 let method = device.map(|_| format!("objects::{accessors}::{}", entry.name));
                 self.add(scope, entry, Handle { constant, method });
             }
@@ -208,7 +208,7 @@ impl Links {
         // If the name has no letters, the type of an object may have the same name, so the link must state that it means
         // the constant.
         let kind = if is_cased(name) { "" } else { "const@" };
-        let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
+        let constant = format!("{kind}{}", constant_path(None, &constant(name)));
         self.add(scope, entry, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
     }
 

@@ -42,10 +42,7 @@ impl ObjectModel {
 
     /// Returns the path of an item's constant.
     pub(super) fn path(&self, item: &ItemModel) -> String {
-        match self.has_entries() {
-            true => format!("objects::{}::{}", self.name, item.constant),
-            false => format!("objects::{}", item.constant),
-        }
+        handles::constant_path(self.has_entries().then_some(&self.name), &item.constant)
     }
 
     /// Returns whether `lexibus::pdo!` must know the names of the items. The macro knows all mappable items. It also
@@ -157,12 +154,8 @@ pub(super) fn constants<'c, 'a>(context: &'c Context<'a>) -> impl Iterator<Item 
     let entries = context.names.handles.objects.iter();
     let entries = entries.flat_map(|object| object.entries.iter().map(move |entry| (object, entry)));
     entries.map(|(object, entry)| {
-        let constant = item::constant(&entry.name);
-        let path = match object.has_entries() {
-            true => format!("objects::{}::{constant}", names::escaped(&object.name)),
-            false => format!("objects::{constant}"),
-        };
-        (entry, path)
+        let name = object.has_entries().then(|| names::escaped(&object.name));
+        (entry, handles::constant_path(name.as_deref(), &handles::constant(&entry.name)))
     })
 }
 

@@ -21,6 +21,20 @@ pub(in crate::backend::rust) struct NamedItem<'a> {
     pub name: String,
 }
 
+/// Returns the name of an item's constant. `name` is the name of the item's handle.
+pub(in crate::backend::rust) fn constant(name: &str) -> String {
+    name.to_ascii_uppercase()
+}
+
+/// Returns the path of the constant `constant`, such as `objects::identity::VENDOR_ID`. `object` is the name of the object if it has
+/// several entries.
+pub(in crate::backend::rust) fn constant_path(object: Option<&str>, constant: &str) -> String {
+    match object {
+        Some(object) => format!("objects::{object}::{constant}"),
+        None => format!("objects::{constant}"),
+    }
+}
+
 /// An item of a register chapter or process image, and the title of the chapter.
 pub(in crate::backend::rust) struct NamedRegister<'a> {
     pub chapter: &'a str,
