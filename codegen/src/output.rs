@@ -43,7 +43,7 @@ pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
 /// Writes a file like [`write_if_changed`], but in parts.
 ///
 /// As long as the parts are equal to the content of the file, nothing is written. A writer that is dropped without a call of
-/// [`finish`](Self::finish) leaves a regular file as it was.
+/// [`finish`](Self::finish) leaves a regular file as it was. [`settled`] waits until a writer that has begun to write is dropped.
 #[derive(Debug)]
 pub struct Writer<'p> {
     path: &'p Path,
@@ -139,7 +139,9 @@ impl State {
         let (mut file, replacement) = Replacement::create(path)?;
         if let Some(mut old) = old.take().map(BufReader::into_inner).filter(|_| *count > 0) {
             old.rewind()?;
-            std::io::copy(&mut old.take(*count), &mut file)?;
+            if std::io::copy(&mut old.take(*count), &mut file)? < *count {
+                return Err(Error::other("the file was changed while it was compared with its new content"));
+            }
         }
         *self = State::Writing { file, replacement };
         Ok(())
