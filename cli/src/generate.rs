@@ -18,21 +18,15 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     let rust_options = generate.rust_options();
     let mut reporter = Reporter::new(&generate.inputs, false)?;
     let mut target = Target::new(&generate.inputs, generate.out.as_deref(), generate.check)?;
-    target.is_reported = true;
     inputs::each_by_path(&generate.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
+        let summary = target.is_one_file().then(|| summary_line(&json::info(&compilation)));
         // The errors in the input have already been reported.
-        if !compilation.is_usable() {
-            return Ok(());
-        }
-        if target.is_one_file() {
-            reporter.progress(&format!("read {}", summary_line(&json::info(&compilation))));
-        }
         let Some(catalog) = compilation.into_usable() else { return Ok(()) };
         let write = |sink: &mut dyn FnMut(&[u8])| {
             rust::write_catalog(&catalog, &rust_options, &mut |part| sink(part.as_bytes()))
         };
-        let exists = target.put_parts(|| file_name(input, &catalog), "rs", &mut reporter, write)?;
+        let exists = target.put_parts(|| file_name(input, &catalog), "rs", summary, &mut reporter, write)?;
         // If there are several inputs, an input without a device is skipped.
         if !exists && !target.many {
             reporter.error(&format!("{}: {}", input.display(), NOTHING_TO_GENERATE));

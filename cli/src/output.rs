@@ -21,8 +21,6 @@ pub(super) struct Target<'g> {
     pub(super) many: bool,
     /// Output paths that have been used so far.
     names: BTreeSet<PathBuf>,
-    /// Whether to report which files were written.
-    pub(super) is_reported: bool,
     /// Number of output files, including files that already had the same text.
     files: usize,
 }
@@ -42,7 +40,7 @@ impl<'g> Target<'g> {
         if let Some(out) = folder.filter(|out| !check && !out.as_os_str().is_empty()) {
             create_folder(out)?;
         }
-        Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), is_reported: false, files: 0 })
+        Ok(Target { out, check, is_folder, many, names: BTreeSet::new(), files: 0 })
     }
 
     /// Returns whether the target accepts several outputs.
@@ -63,53 +61,44 @@ impl<'g> Target<'g> {
             sink(content.as_ref());
             true
         };
-        self.put_parts(name, ending, reporter, write).map(|_| ())
+        self.put_parts(name, ending, None, reporter, write).map(|_| ())
     }
 
     /// Does the same as [`put`](Self::put) for an output that `write` passes to its argument in parts. If `write` returns false,
-    /// there is no output. Returns whether there is one.
+    /// there is no output. Returns whether there is one. `summary` describes the input of an output that is reported.
     pub(super) fn put_parts(
         &mut self,
         name: impl FnOnce() -> String,
         ending: &str,
+        summary: Option<String>,
         reporter: &mut Reporter,
         write: impl FnOnce(&mut dyn FnMut(&[u8])) -> bool,
     ) -> Result<bool, Failure> {
-        let Some(out) = self.out else {
-            let (mut stdout, mut written) = (std::io::stdout().lock(), Ok(()));
-            let exists = write(&mut |part| {
-                if written.is_ok() {
-                    written = stdout.write_all(part);
-                }
-            });
-            written?;
-            return Ok(exists);
-        };
+        let Some(out) = self.out else { return Ok(print(write)?) };
         let path = if self.is_folder { self.file_in(out, &name(), ending) } else { out.to_owned() };
-        if self.check {
-            let mut content = Vec::new();
-            let exists = write(&mut |part| content.extend_from_slice(part));
-            match exists {
-                true => check_bytes(&path, &content, reporter),
-                false => _ = self.names.remove(&path),
-            }
-            return Ok(exists);
-        }
-        let (mut writer, mut lines) = (Writer::new(&path), 0);
+        let (mut content, mut writer, mut lines) = (Vec::new(), None, 0);
         let exists = write(&mut |part| {
             lines += part.iter().filter(|byte| **byte == b'\n').count();
-            writer.push(part);
+            match self.check {
+                true => content.extend_from_slice(part),
+                false => writer.get_or_insert_with(|| Writer::new(&path)).push(part),
+            }
         });
         if !exists {
             self.names.remove(&path);
             return Ok(false);
         }
-        if let Err(error) = writer.finish() {
+        if self.check {
+            check_bytes(&path, &content, reporter);
+            return Ok(true);
+        }
+        if let Err(error) = writer.unwrap_or_else(|| Writer::new(&path)).finish() {
             reporter.error(&cannot_write(&path, &error));
             return Ok(true);
         }
         self.files += 1;
-        if self.is_one_file() && self.is_reported {
+        if let Some(summary) = summary {
+            reporter.progress(&format!("read {summary}"));
             reporter.progress(&format!("wrote {}: {lines} lines", path.display()));
         }
         Ok(true)
@@ -139,6 +128,17 @@ impl<'g> Target<'g> {
         }
         path
     }
+}
+
+/// Prints the parts that `write` passes to its argument to standard output. Returns the result of `write`.
+fn print(write: impl FnOnce(&mut dyn FnMut(&[u8])) -> bool) -> std::io::Result<bool> {
+    let (mut stdout, mut printed) = (std::io::stdout().lock(), Ok(()));
+    let exists = write(&mut |part| {
+        if printed.is_ok() {
+            printed = stdout.write_all(part);
+        }
+    });
+    printed.map(|()| exists)
 }
 
 fn check(path: &Path, text: &str, reporter: &mut Reporter) {

@@ -85,12 +85,15 @@ fn a_pipe_is_no_input() {
 #[test]
 fn a_full_disk_leaves_the_old_file() {
     let folder = folder("full");
-    std::fs::write(folder.join("drive.rs"), "old").expect("a file");
+    // The old file begins like the new one, so this part of it is copied first.
+    let generated = shell(&folder, "exec $LEXIBUS generate $DEMO");
+    let old = String::from_utf8_lossy(&generated.stdout[..generated.stdout.len() / 2]).into_owned();
+    std::fs::write(folder.join("drive.rs"), &old).expect("a file");
     // Limit the file size to one block, and ignore the signal for exceeding the limit.
     let output = shell(&folder, "trap '' XFSZ; ulimit -f 1; exec $LEXIBUS generate $DEMO --out drive.rs");
     assert_eq!(output.status.code(), Some(1), "{}", error(&output));
     assert!(error(&output).contains("cannot write drive.rs"), "{}", error(&output));
-    assert_eq!(std::fs::read_to_string(folder.join("drive.rs")).expect("the file"), "old");
+    assert_eq!(std::fs::read_to_string(folder.join("drive.rs")).expect("the file"), old);
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 1, "no temporary file remains");
 }
 

@@ -232,8 +232,7 @@ impl Builder {
         text.ok_or_else(|| BuildError::Empty { path: input.into() })
     }
 
-    /// Reads and checks `input`. Reports the diagnostics and the files that were read to Cargo. Returns an error if there are errors
-    /// in the input.
+    /// Reads and checks `input`. Reports the warnings and the files that were read to Cargo.
     fn check(&self, input: &Path) -> Result<Catalog, BuildError> {
         self.tell_cargo(format_args!("cargo::rerun-if-changed={}", input.display()));
         let options = self.options()?;
@@ -247,10 +246,8 @@ impl Builder {
             self.tell_cargo(format_args!("cargo::rerun-if-changed={}", path.display()));
         }
         self.report(&compilation);
-        if !compilation.is_usable() {
-            return Err(BuildError::Input(errors(&compilation)));
-        }
-        compilation.into_usable().ok_or_else(|| BuildError::Empty { path: input.into() })
+        let errors = errors(&compilation);
+        compilation.into_usable().ok_or(BuildError::Input(errors))
     }
 
     fn options(&self) -> Result<Options, BuildError> {

@@ -84,10 +84,10 @@ impl Compilation {
     }
 
     /// Returns the catalog, or `None` if the compilation cannot produce output. Drops the text of the source files, which only
-    /// diagnostics need.
+    /// diagnostics need, and computes the SHA-256 of these files before.
     pub fn into_usable(self) -> Option<Catalog> {
         let mut catalog = self.is_usable().then_some(self.catalog).flatten()?;
-        catalog.files.iter_mut().for_each(|file| file.sha256 = file.sha256.as_str().to_owned().into());
+        catalog.files.iter_mut().for_each(|file| file.sha256.detach());
         Some(catalog)
     }
 }

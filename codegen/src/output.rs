@@ -42,8 +42,10 @@ pub fn write_if_changed(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
 
 /// Writes a file like [`write_if_changed`], but in parts.
 ///
-/// As long as the parts are equal to the content of the file, nothing is written. A writer that is dropped without a call of
-/// [`finish`](Self::finish) leaves a regular file as it was. [`settled`] waits until a writer that has begun to write is dropped.
+/// As long as the parts are equal to the content of the file, nothing is written. From the first difference on, the content is in a
+/// temporary file next to the file. The temporary file replaces the file when [`finish`](Self::finish) is called, and is removed if
+/// the writer is dropped before. Until then, [`settled`] waits, and the thread of the writer must not begin another write: the two
+/// would wait for each other.
 #[derive(Debug)]
 pub struct Writer<'p> {
     path: &'p Path,
@@ -52,15 +54,10 @@ pub struct Writer<'p> {
 
 #[derive(Debug)]
 enum State {
-    /// All bytes so far are equal to those at the beginning of the old file. `old` contains the following bytes.
-    Equal {
-        old: Option<BufReader<File>>,
-        count: u64,
-    },
-    Writing {
-        file: File,
-        replacement: Option<Replacement>,
-    },
+    /// The first `count` bytes are equal to those at the beginning of the old file. `old` contains the following bytes.
+    Equal { old: Option<BufReader<File>>, count: u64 },
+    /// The content is written to `file`: a temporary file or, without a replacement, a pipe or device.
+    Writing { file: File, replacement: Option<Replacement> },
 }
 
 /// A temporary file, and the file that it will replace. A temporary file that has not replaced a file is removed.
@@ -143,7 +140,7 @@ impl State {
                 return Err(Error::other("the file was changed while it was compared with its new content"));
             }
         }
-        *self = State::Writing { file, replacement };
+        *self = State::Writing { file, replacement: Some(replacement) };
         Ok(())
     }
 }
@@ -164,28 +161,34 @@ fn skip_equal(old: &mut BufReader<File>, part: &[u8]) -> usize {
 }
 
 impl Replacement {
-    /// Opens the file to which the new content of `path` is written: a temporary file next to it or, if `path` is a symbolic link
-    /// whose target does not exist yet, the target.
-    fn create(path: &Path) -> Result<(File, Option<Self>)> {
+    /// Creates a temporary file next to the file `path`, with the same permissions.
+    fn create(path: &Path) -> Result<(File, Self)> {
         let _writing = writing();
-        let target = match fs::canonicalize(path) {
-            Ok(target) => target,
-            Err(_) if path.is_symlink() => return Ok((File::create(path)?, None)),
-            Err(error) if error.kind() == ErrorKind::NotFound => path.to_owned(),
-            Err(error) => return Err(error),
-        };
+        let target = target(path)?;
         let (file, temporary) = temporary(&target)?;
         let replacement = Replacement { temporary, target, is_complete: false, _writing };
         if let Ok(old) = fs::metadata(&replacement.target) {
             file.set_permissions(old.permissions())?;
         }
-        Ok((file, Some(replacement)))
+        Ok((file, replacement))
     }
 
     fn rename(mut self) -> Result<()> {
         fs::rename(&self.temporary, &self.target)?;
         self.is_complete = true;
         Ok(())
+    }
+}
+
+/// Returns the path of a file without symbolic links. The file need not exist.
+fn target(path: &Path) -> Result<PathBuf> {
+    match fs::canonicalize(path) {
+        // A chain of links whose last target does not exist is finite.
+        Err(error) if error.kind() == ErrorKind::NotFound => match fs::read_link(path) {
+            Ok(link) => target(&path.with_file_name(link)),
+            Err(_) => Ok(path.to_owned()),
+        },
+        canonical => canonical,
     }
 }
 
@@ -294,7 +297,12 @@ mod tests {
         symlink("a", &link).unwrap();
         symlink("b", &dangling).unwrap();
         write_if_changed(&link, "new").unwrap();
-        write_if_changed(&dangling, "new").unwrap();
+        let mut dropped = Writer::new(&dangling);
+        dropped.push(b"n");
+        drop(dropped);
+        assert!(!folder.join("b").exists());
+        symlink("dangling", folder.join("chain")).unwrap();
+        write_if_changed(&folder.join("chain"), "new").unwrap();
         assert!(link.is_symlink() && dangling.is_symlink());
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
         assert_eq!(fs::read_to_string(folder.join("b")).unwrap(), "new");

@@ -174,8 +174,11 @@ fn what_describes_no_device_gives_no_bindings() {
     let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
     assert_eq!((code(&generated), target.exists()), (1, false));
     assert!(err(&generated).contains("describes neither a device nor a module"), "{}", err(&generated));
+    assert!(!err(&generated).contains("read "), "{}", err(&generated));
     // If there are several inputs, an input without a device is skipped.
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
+    std::fs::create_dir(folder.join("a")).expect("a folder");
+    std::fs::copy(&empty, folder.join("a/coupler.xml")).expect("a copy");
     let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);
     assert_eq!((code(&all), folder.join("coupler.rs").exists()), (0, true), "{}", err(&all));
 }

@@ -49,6 +49,11 @@ impl Digest {
         Digest(Origin::File(Arc::clone(content)))
     }
 
+    /// Computes the SHA-256, so that the content of the file is not needed any more.
+    pub(crate) fn detach(&mut self) {
+        self.0 = Origin::Text(self.as_str().to_owned());
+    }
+
     /// Returns the hexadecimal digits of the SHA-256.
     pub fn as_str(&self) -> &str {
         match &self.0 {

@@ -89,7 +89,10 @@ fn an_empty_description_has_its_own_error() {
     let input = folder("empty").join("vendor.xml");
     let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices/></Descriptions></EtherCATInfo>";
     std::fs::write(&input, esi).expect("the input");
-    let error = Builder::new().quiet().generate(&input).expect_err("no device");
+    let builder = Builder::new().quiet().out_dir(input.with_file_name("out"));
+    builder.compile(&input).expect_err("no device");
+    assert!(!input.with_file_name("out").exists());
+    let error = builder.generate(&input).expect_err("no device");
     assert!(matches!(&error, BuildError::Empty { path } if *path == input), "{error}");
     let text = error.to_string();
     assert!(

@@ -7,5 +7,4 @@ mod writer;
 
 pub(super) use doc::{call, generic, list, seq, slice, Break, Data, Doc, Piece, Stop};
 pub(super) use layout::MARGIN;
-pub use writer::Sink;
-pub(super) use writer::{line, open, Code};
+pub(super) use writer::{line, open, Code, Sink};

@@ -78,7 +78,7 @@ pub(super) fn item(
     paragraphs.extend(doubts(&item.doubts, &context.manual));
     let paragraphs = paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty());
     lines.extend(separated(documentation(item).into_iter().chain(paragraphs)));
-    lines
+    exact(lines)
 }
 
 /// Returns the documentation of an item's accessor: the text of the description, if there is one, the name, facts,
@@ -106,10 +106,10 @@ pub(super) fn method(
     lines.extend(storage.map(|storage| sentence(&capital(&storage))));
     lines.push(context.links.related_to_method(entry, type_name(context, item), doc_module));
     lines.extend(separated(doubts(&item.doubts, &context.manual)));
-    lines
+    exact(lines)
 }
 
-/// Frees the unused capacity of lines. Each item of a device has several such lists, so their unused capacity adds up.
+/// Frees the unused capacity of lines that are stored in a model. A model contains many of them.
 pub(super) fn exact(mut lines: Vec<String>) -> Vec<String> {
     lines.iter_mut().for_each(String::shrink_to_fit);
     lines.shrink_to_fit();
@@ -149,7 +149,7 @@ pub(super) fn holds(condition: &Condition, context: &Context<'_>, doc_module: Do
 
 /// Returns the lines of a doc comment, in which empty lines separate the paragraphs.
 pub(super) fn paragraphs(paragraphs: impl IntoIterator<Item = String>) -> Vec<String> {
-    exact(separated(paragraphs).skip(1).collect())
+    separated(paragraphs).skip(1).collect()
 }
 
 /// Returns the paragraphs, with an empty line before each of them.

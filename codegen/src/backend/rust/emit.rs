@@ -20,19 +20,12 @@ pub const INTERFACE_VERSION: u32 = 1;
 /// The code of a single device is at the top level. If the catalog has several devices, each device has its own Rust
 /// module. The Rust modules for plug-in modules are in the Rust module `modules`.
 pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
-    let mut text = String::new();
-    let mut sink = |part: &str| {
-        // The text of a large device is the largest allocation of the compiler, so it grows by a quarter instead of doubling.
-        if text.capacity() - text.len() < part.len() {
-            text.reserve_exact(part.len().max(text.len() / 4));
-        }
-        text += part;
-    };
-    write_catalog(catalog, options, &mut sink).then_some(text)
+    let (text, exists) = collected(|sink| write_catalog(catalog, options, sink));
+    exists.then_some(text)
 }
 
-/// Passes the Rust module that [`emit_catalog`] returns to `sink` in parts. Returns whether there is a module.
-pub fn write_catalog(catalog: &Catalog, options: &RustOptions, sink: Sink<'_>) -> bool {
+/// Passes the Rust module that [`emit_catalog`] returns to `sink` in parts. Returns false, and passes nothing, if there is no module.
+pub fn write_catalog(catalog: &Catalog, options: &RustOptions, sink: &mut dyn FnMut(&str)) -> bool {
     let Some(file) = catalog.files.first() else { return false };
     let code = Code::to(sink, header(file), &options.runtime);
     #[cfg(feature = "gsdml")]
@@ -46,9 +39,25 @@ pub fn write_catalog(catalog: &Catalog, options: &RustOptions, sink: Sink<'_>) -
 ///
 /// The text is the body of a module. It can be a separate file or be included in `mod name { … }`.
 pub fn emit(device: &Device, file: &FileInfo, options: &RustOptions) -> String {
-    let mut code = Code::new(header(file), &options.runtime);
-    print::model(&mut code, profiles::shared(Model::new(device, file, options, &ModulePaths::default())));
-    code.finish()
+    let write = |sink: Sink<'_>| {
+        let mut code = Code::to(sink, header(file), &options.runtime);
+        print::model(&mut code, profiles::shared(Model::new(device, file, options, &ModulePaths::default())));
+        code.finish();
+    };
+    collected(write).0
+}
+
+/// Returns the text that `write` passes to its argument in parts, and the result of `write`.
+fn collected<R>(write: impl FnOnce(Sink<'_>) -> R) -> (String, R) {
+    let mut text = String::new();
+    let result = write(&mut |part: &str| {
+        // The text of a large device is the largest allocation of the compiler, so it grows by a quarter instead of doubling.
+        if text.capacity() - text.len() < part.len() {
+            text.reserve_exact(part.len().max(text.len() / 4));
+        }
+        text += part;
+    });
+    (text, result)
 }
 
 /// Returns the comment at the top of a file.

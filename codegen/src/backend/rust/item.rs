@@ -100,9 +100,9 @@ pub(super) fn model(
         id: *id,
         constant: constant(name),
         method: names::escaped(name),
-        docs: docs::exact(docs::item(entry, original, chapter, context, DocModule::OBJECTS)),
+        docs: docs::item(entry, original, chapter, context, DocModule::OBJECTS),
         method_docs: if context.links.has_methods {
-            docs::exact(docs::method(entry, original, context, method_module))
+            docs::method(entry, original, context, method_module)
         } else {
             Vec::new()
         },

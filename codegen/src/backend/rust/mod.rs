@@ -72,7 +72,6 @@ mod window_model;
 mod words;
 
 pub use calls::{Calls, RecordUsage, Usage};
-pub use code::Sink;
 pub use device_names::{module_name, stem_name as file_name};
 pub use emit::{
     device_name, emit, emit_catalog, usage, usage_of_modules, usage_of_records, write_catalog, INTERFACE_VERSION,

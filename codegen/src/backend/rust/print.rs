@@ -25,8 +25,8 @@ use super::code::Code;
 use super::model::Model;
 use super::named::Types;
 
-/// Prints a device or a module of a modular device. Drops large parts of the model as soon as they are printed, because
-/// the model needs more memory than the text.
+/// Prints a device or a module of a modular device. Drops large parts of the model as soon as they are printed, because a text
+/// that is not written in parts grows at the same time.
 pub(super) fn model(code: &mut Code, mut model: Model) {
     device::write(code, &model);
     accessors::write(code, &mut model);

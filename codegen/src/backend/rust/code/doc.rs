@@ -12,7 +12,7 @@ use crate::number::hex16;
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Doc {
     text: String,
-    /// Marks, each with its byte offset in the text. A document is a construct of a few lines, so 32 bits are enough.
+    /// Marks, each with its byte offset in the text. No document has 4 GiB.
     marks: Vec<(u32, Mark)>,
 }
 
@@ -85,7 +85,7 @@ impl Piece for Doc {
     fn put(&self, to: &mut Doc) {
         let start = to.end();
         to.text.push_str(&self.text);
-        to.marks.extend(self.marks.iter().map(|(at, mark)| (at + start, *mark)));
+        to.marks.extend(self.marks.iter().map(|(at, mark)| (at.saturating_add(start), *mark)));
     }
 }
 
@@ -135,7 +135,7 @@ impl Doc {
         doc.exact()
     }
 
-    /// Frees the unused capacity. The model of a device contains many documents, so their unused capacity adds up.
+    /// Frees the unused capacity, because a model contains many documents.
     fn exact(mut self) -> Self {
         self.text.shrink_to_fit();
         self.marks.shrink_to_fit();

@@ -3,7 +3,7 @@
 use super::doc::{Doc, Piece};
 use super::layout::{self, indent, STEP};
 
-/// Size of the parts in which the text is passed to its receiver, in bytes.
+/// Minimum size of a part of the text, in bytes. Only the last part can be smaller.
 const PART: usize = 32 * 1024;
 
 /// Receives the parts of a text in their order.
@@ -11,7 +11,7 @@ pub type Sink<'s> = &'s mut dyn FnMut(&str);
 
 /// Writes Rust code line by line.
 pub struct Code<'s> {
-    /// Text that the receiver has not got yet, or the complete text if there is no receiver.
+    /// Text that the receiver has not received yet, or the complete text if there is no receiver.
     out: String,
     sink: Option<Sink<'s>>,
     indent: usize,
@@ -28,7 +28,7 @@ impl<'s> Code<'s> {
         Code { out: start, sink: None, indent: 0, line: Doc::default(), runtime: runtime.to_owned(), has_docs: true }
     }
 
-    /// Creates code that is passed to `sink` in parts, because the text of a large device needs more memory than its description.
+    /// Creates code that is passed to `sink` in parts. The text of a large device needs more memory than its description.
     pub fn to(sink: Sink<'s>, start: String, runtime: &str) -> Self {
         Code { sink: Some(sink), ..Code::new(start, runtime) }
     }

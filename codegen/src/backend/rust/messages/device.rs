@@ -4,6 +4,7 @@ use super::field::Field;
 use super::rules::Rules;
 use super::{DataModel, MessageModel};
 use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
 use crate::backend::rust::literal;
 use crate::backend::rust::method_names::unused_name;
@@ -61,7 +62,7 @@ pub(super) fn calls(
         let selector = selector(shaped, messages, shape.message.after.as_ref());
         calls.push(CallModel {
             method: names::escaped(&name),
-            docs: docs(documentation(shape.message), request),
+            docs: call_docs(documentation(shape.message), request),
             ty: format!("{ty}{lifetime}"),
             arguments,
             build,
@@ -87,10 +88,10 @@ fn arguments(fields: &[Field]) -> Vec<String> {
 }
 
 /// Returns the documentation of a method: the documentation of the message, and a link to the type of the request.
-fn docs(mut docs: Vec<String>, request: &DataModel) -> Vec<String> {
+fn call_docs(mut lines: Vec<String>, request: &DataModel) -> Vec<String> {
     let sends = format!("Sends the message {}.", DocModule::TOP.whole(&format!("messages::{}", request.name)));
-    docs.extend([String::new(), sends]);
-    docs
+    lines.extend([String::new(), sends]);
+    docs::exact(lines)
 }
 
 /// Returns the type of the message that brings the driver into its state after power-on. Returns `None` if the description

@@ -183,14 +183,14 @@ impl Maker<'_, '_> {
         let has_request = !message.request.is_empty();
         let request = has_request.then(|| {
             let data = self.data(&shape.request.steps, request_name, entry);
-            let mut docs = self.documentation(message, DocModule::MESSAGES);
+            let mut lines = self.documentation(message, DocModule::MESSAGES);
             let reply = (!message.reply.is_empty()).then(|| format!("Reply: {}.", links::sibling(reply_name)));
             let refused = refusal.map(|names| format!("Refusal: {}.", links::sibling(&names[1])));
             let answers: Vec<String> = reply.into_iter().chain(refused).collect();
             if !answers.is_empty() {
-                docs.extend([String::new(), answers.join(" ")]);
+                lines.extend([String::new(), answers.join(" ")]);
             }
-            DataModel { docs, ..data }
+            DataModel { docs: docs::exact(lines), ..data }
         });
         let reply = (!message.reply.is_empty()).then(|| {
             let data = self.data(&shape.reply.steps, reply_name, reply_entry);
