@@ -89,9 +89,10 @@ fn an_empty_description_has_its_own_error() {
     let input = folder("empty").join("vendor.xml");
     let esi = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices/></Descriptions></EtherCATInfo>";
     std::fs::write(&input, esi).expect("the input");
-    let builder = Builder::new().quiet().out_dir(input.with_file_name("out"));
-    builder.compile(&input).expect_err("no device");
-    assert!(!input.with_file_name("out").exists());
+    let builder = Builder::new().quiet().out_dir(input.with_file_name(""));
+    let error = builder.compile(&input).expect_err("no device");
+    assert!(matches!(&error, BuildError::Empty { path } if *path == input), "{error}");
+    assert!(!input.with_file_name("vendor.rs").exists());
     let error = builder.generate(&input).expect_err("no device");
     assert!(matches!(&error, BuildError::Empty { path } if *path == input), "{error}");
     let text = error.to_string();

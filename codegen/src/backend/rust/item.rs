@@ -91,9 +91,8 @@ pub(super) fn model(
     let ty = ItemType::of(context, item);
     let location = |handles: &str| locations.argument(addresses.buses(), handles);
     let on = location("").map(|_| addresses.buses().word()).unwrap_or_default();
-    let types = |outer: &str, handles: &str| {
-        exact(std::iter::once(ty.path(outer)).chain(location(handles).map(Doc::from)).collect())
-    };
+    let types =
+        |outer: &str, handles: &str| std::iter::once(ty.path(outer)).chain(location(handles).map(Doc::from)).collect();
     let constructor =
         Arguments::of(item, original, &ty, OUTER).constructor(&addresses, || locations.code(context, &addresses));
     ItemModel {
@@ -117,12 +116,6 @@ pub(super) fn model(
         object: addresses.object_on(context.bus),
         mappable: None,
     }
-}
-
-/// Frees the unused capacity of a list. Each item of a device has several such lists, so their unused capacity adds up.
-fn exact<T>(mut list: Vec<T>) -> Vec<T> {
-    list.shrink_to_fit();
-    list
 }
 
 /// Returns the heading of an item: its name and its address.

@@ -49,9 +49,9 @@ impl<'s> Code<'s> {
         self.out
     }
 
-    /// Passes the text to the receiver if there is one and the text has at least `least` bytes.
-    fn pass(&mut self, least: usize) {
-        if let Some(sink) = self.sink.as_mut().filter(|_| self.out.len() >= least) {
+    /// Passes the text to the receiver if there is one and the text is not shorter than `minimum` bytes.
+    fn pass(&mut self, minimum: usize) {
+        if let Some(sink) = self.sink.as_mut().filter(|_| self.out.len() >= minimum) {
             sink(&self.out);
             self.out.clear();
         }
