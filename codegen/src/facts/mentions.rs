@@ -44,7 +44,7 @@ impl<'d> Mentions<'d> {
         for (position, group) in (0..).zip(&device.groups) {
             for (id, item) in group.items_at(position) {
                 mentions.add(item.name.as_str(), Mention::Item(id));
-                let text = item.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+                let text = item.documentation.as_ref().map_or("", |documentation| &*documentation.text);
                 for table in quoted(text).filter(|name| tables.contains(name)) {
                     mentions.of_tables.entry(table).or_default().push(Mention::Item(id));
                 }
@@ -188,6 +188,8 @@ fn is_capitalized(word: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::ir::{
         Binding, BitMeaning, Condition, Group, Item, Message, ObjectCode, Pattern, StateMachine, Type, TypeDef, TypeId,
@@ -199,7 +201,7 @@ mod tests {
         let mut group = Group::object(0x2000, ObjectCode::Var);
         group.items.push(Item::new(Binding::canopen(0x2000, 0)));
         let text = "Number of the alarm. The code table \"alarms\" lists the numbers".into();
-        group.items[0].documentation = Some(Box::new(Documentation { text, ..Documentation::default() }));
+        group.items[0].documentation = Some(Arc::new(Documentation { text, ..Documentation::default() }));
         let mut device = Device { groups: vec![group], ..Device::default() };
         let table = |name: &str| CodeTable { name: name.into(), ..CodeTable::default() };
         device.code_tables.extend([table("alarms"), table("numbers")]);

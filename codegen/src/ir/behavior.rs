@@ -1,5 +1,7 @@
 //! Access rights, bindings, units, storage and availability of items.
 
+use std::sync::Arc;
+
 use super::{
     Buses, CompactString, Condition, Documentation, Doubts, ElementRef, GivenRef, ImageRef, ItemRef, ProcedureRef,
     Scale, SpaceRef, Texts, Type, Value, VariantRef,
@@ -361,7 +363,7 @@ pub struct Conversion {
     /// Value of the item that the scale factor depends on.
     pub by: Option<f64>,
     /// Description of the example from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the example in the source.
     pub at: Span,
 }
@@ -390,7 +392,7 @@ pub struct GivenNumber {
     /// Models that define the constant, and its value on each model.
     pub models: Vec<(VariantRef, Value)>,
     /// Description of the machine constant from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the machine constant, with the assumptions made.
     pub doubts: Doubts,
     /// Location of the machine constant in the source.

@@ -250,7 +250,7 @@ impl Manual {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Documentation {
     /// Description in English, or in another language if the source has no English description.
-    pub text: String,
+    pub text: Box<str>,
     /// Description in other languages.
     pub translations: Texts,
     /// Page, line or clause of the manual that describes the element.

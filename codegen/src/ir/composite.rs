@@ -1,5 +1,7 @@
 //! Numbers that are split over several items.
 
+use std::sync::Arc;
+
 use super::{CompactString, Documentation, Doubts, ItemRef, Texts};
 use crate::source::Origin;
 
@@ -21,7 +23,7 @@ pub struct Composite {
     /// Unit of the number.
     pub unit: CompactString,
     /// Description of the number from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the number, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,

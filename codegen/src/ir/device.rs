@@ -1,5 +1,7 @@
 //! Devices: identity, file header, bus settings, models and axes.
 
+use std::sync::Arc;
+
 use super::{
     CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, FactOrigin, Framing,
     Group, Item, Message, Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot,
@@ -77,7 +79,7 @@ pub struct Device {
     /// Rules that derive the objects of further axes from those of the first axis.
     pub axes: Option<AxisRule>,
     /// Description of the device from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Manual that the description was transcribed from.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub manual: Option<Box<super::Manual>>,
@@ -330,7 +332,7 @@ pub struct Variant {
     /// Names and values of the variant's constants, such as base values of fractions.
     pub constants: Vec<(CompactString, Value)>,
     /// Description of the variant from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the variant, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,

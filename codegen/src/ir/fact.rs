@@ -1,8 +1,6 @@
 //! Origins of facts, and their precedence.
 
-use thin_vec::ThinVec;
-
-use super::{CompactString, Item};
+use super::{CompactString, Item, SharedList};
 
 /// An attribute of an item or group. Several sources can state the same attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -99,7 +97,7 @@ impl Fact {
 
 /// Returns the description of an item, without citations.
 fn text(item: &Item) -> &str {
-    item.documentation.as_deref().map_or("", |documentation| documentation.text.as_str())
+    item.documentation.as_deref().map_or("", |documentation| &*documentation.text)
 }
 
 /// The origin of a fact.
@@ -179,10 +177,10 @@ impl FactOrigin {
     }
 }
 
-/// Origins of facts that do not come from the description itself.
+/// Origins of facts that do not come from the description itself. Items whose facts have the same origins can share the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct FactOrigins(pub ThinVec<(Fact, FactOrigin)>);
+pub struct FactOrigins(pub SharedList<(Fact, FactOrigin)>);
 
 impl FactOrigins {
     /// Returns whether no origin is recorded. If so, all facts come from the description itself.
@@ -198,11 +196,19 @@ impl FactOrigins {
 
     /// Records the origin of a fact. `None` means the description itself.
     pub(crate) fn set(&mut self, fact: Fact, origin: Option<FactOrigin>) {
-        self.0.retain(|(recorded, _)| *recorded != fact);
-        if let Some(origin) = origin {
-            // Exact reservation saves memory: most items have one or two origins, but a growing vector allocates memory for four.
-            self.0.reserve_exact(1);
-            self.0.push((fact, origin));
+        if self.get(fact) != origin.as_ref() {
+            let origins = self.0.to_mut();
+            origins.retain(|(recorded, _)| *recorded != fact);
+            origins.extend(origin.map(|origin| (fact, origin)));
+        }
+    }
+
+    /// Uses the list of `recent` if both lists are equal. Otherwise, `recent` becomes this list.
+    pub(crate) fn share(&mut self, recent: &mut FactOrigins) {
+        if self == recent {
+            self.clone_from(recent);
+        } else {
+            recent.clone_from(self);
         }
     }
 

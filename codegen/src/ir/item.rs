@@ -1,5 +1,7 @@
 //! Items and groups of items.
 
+use std::sync::Arc;
+
 use smallvec::SmallVec;
 use thin_vec::ThinVec;
 
@@ -54,7 +56,7 @@ pub struct Item {
     /// ObjFlags of CiA 306: bit 0 = refuse write on download, bit 1 = refuse read on scan. Other bits are stored unchanged.
     pub flags: u32,
     /// Description of the item, as in the description file.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the item, with the assumptions made.
     pub doubts: Doubts,
     /// Facts about the item that have no field in the IR.
@@ -295,7 +297,7 @@ pub struct Group {
     /// the type of the object.
     pub described: u32,
     /// Description of the group from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the group, with the assumptions made.
     pub doubts: Doubts,
     /// Facts about the group that have no field in the IR.

@@ -1,5 +1,7 @@
 //! State machines and procedures.
 
+use std::sync::Arc;
+
 use super::{
     Availability, CommandRef, CompactString, Direction, Documentation, Doubts, FactOrigin, ItemRef, MessageRef,
     SharedList, StateRef, Texts, TypeRef, Value,
@@ -37,7 +39,7 @@ pub struct StateMachine {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub outcomes: Vec<CommandOutcomes>,
     /// Description of the state machine from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the state machine and its commands, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
@@ -60,7 +62,7 @@ pub struct CommandOutcomes {
     /// Effects of the command, with one entry for each column (state) of the matrix.
     pub cells: Vec<StateOutcome>,
     /// Description of the command from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the command in the source.
     pub origin: Origin,
 }
@@ -74,7 +76,7 @@ pub struct StateOutcome {
     /// Possible outcomes of the command in this state; empty if the source does not state any.
     pub outcomes: Vec<Outcome>,
     /// Conditions and further effects of the command in this state.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
 }
 
 /// An outcome of a command in one state.
@@ -103,7 +105,7 @@ pub struct Pattern {
     /// Name of the state or command in other languages.
     pub names: Texts,
     /// Description of the state or command from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
 }
 
 /// A transition from one state to another.
@@ -119,7 +121,7 @@ pub struct Transition {
     /// Command or message that causes the transition; `None` = the device itself causes it.
     pub command: Option<CommandRef>,
     /// Description of the transition from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
 }
 
 /// A procedure: a sequence of steps.
@@ -137,7 +139,7 @@ pub struct Procedure {
     /// Locations of the steps in the source.
     pub step_spans: Vec<Span>,
     /// Description of the procedure from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the procedure, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,

@@ -1,5 +1,7 @@
 //! Command protocols and code tables.
 
+use std::sync::Arc;
+
 use super::{
     Availability, Buses, CompactString, Condition, DeviceStateRef, Documentation, Doubts, FactOrigin, FieldId,
     FieldRef, Item, ItemRef, MessageId, MessageRef, SharedList, SpaceRef, Texts, Value,
@@ -49,7 +51,7 @@ pub struct Message {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Vec::is_empty"))]
     pub examples: Vec<MessageExample>,
     /// Description of the message from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the message, with the assumptions made.
     pub doubts: Doubts,
     /// Location of the message in the source.
@@ -82,7 +84,7 @@ pub struct MessageExample {
     /// Bytes of the reply; empty if the source prints none.
     pub reply: Vec<u8>,
     /// Description of the example from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the request in the source.
     pub request_at: Span,
     /// Location of the reply in the source.
@@ -226,7 +228,7 @@ pub struct ParameterSpace {
     /// Byte order of values on the wire as a list of byte numbers, in which 0 is the most significant byte; empty = big-endian.
     pub byte_order: Vec<u8>,
     /// Description of the parameter space from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the parameter space in the source.
     pub origin: Origin,
 }
@@ -261,7 +263,7 @@ pub struct Framing {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub address: Option<CompactString>,
     /// Description of the framing from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the framing in the source.
     pub origin: Origin,
 }
@@ -281,7 +283,7 @@ pub struct CodeTable {
     pub buses: Buses,
     /// Description of the code table.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the code table and its rows, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
@@ -314,7 +316,7 @@ pub struct CodeRow {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub availability: Option<Box<Availability>>,
     /// Description of cause and remedy.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Values of the cells in the further columns.
     pub cells: Vec<Value>,
     /// Origin of the row; `None` = that of the code table.

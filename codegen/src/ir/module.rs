@@ -1,5 +1,7 @@
 //! Modular devices: slots and modules.
 
+use std::sync::Arc;
+
 use super::{
     CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Mailbox, Numbers, ProcessData,
     SlotNumbers, SubmoduleUse, SubslotName, Texts, TypeDef,
@@ -85,7 +87,7 @@ pub struct Module {
     /// Comment lines about the module.
     pub comments: Vec<CompactString>,
     /// Description of the module from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Types of the module's objects.
     pub types: Vec<TypeDef>,
     /// Objects that exist only once, regardless of how many modules of this kind are connected.

@@ -1,5 +1,7 @@
 //! Cyclic data with exact bit positions.
 
+use std::sync::Arc;
+
 use super::{CompactString, Documentation, Doubts, Extensions, ItemId, ObjectBuses, Texts, Type, Value};
 use crate::collections::HashMap;
 use crate::source::Origin;
@@ -145,7 +147,7 @@ pub struct Pdo {
     pub max_bytes: Option<u16>,
     /// Description of the PDO from the source.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the PDO, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,

@@ -1,5 +1,7 @@
 //! Capabilities of PROFINET IO devices, and submodules (GSDML).
 
+use std::sync::Arc;
+
 use super::{CompactString, Documentation, Extensions, Group, Identity, ProcessImage, SlotNumbers, Texts, TypeId};
 use crate::source::Origin;
 
@@ -103,7 +105,7 @@ pub struct Submodule {
     /// Name of the submodule in other languages.
     pub names: Texts,
     /// Description of the submodule from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Order code and vendor name of the submodule; empty if the source does not state them for the submodule.
     pub identity: Identity,
     /// Cyclic inputs of the controller, if any.
@@ -281,7 +283,7 @@ pub struct UnitDiagnosis {
     /// Name of the structure in other languages.
     pub names: Texts,
     /// Description of the structure from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Fields of the structure.
     pub fields: Vec<UnitDiagnosisField>,
     /// Facts about the structure that have no field in the IR.

@@ -9,11 +9,11 @@ use smallvec::SmallVec;
 use super::{CompactString, LocalText};
 use crate::source::{Origin, Span};
 
-/// A copy-on-write list. An empty list allocates no memory.
+/// A copy-on-write list. An empty list allocates no memory, and a list with one element allocates memory once.
 ///
 /// Copies share their elements until one copy is changed. Sharing saves memory: items of large devices share names, and drives
 /// share the codes and states of their profile.
-pub struct SharedList<T>(Option<Arc<Vec<T>>>);
+pub struct SharedList<T>(Option<Arc<SmallVec<[T; 1]>>>);
 
 /// Translations of a text.
 pub type Texts = SharedList<LocalText>;
@@ -27,7 +27,7 @@ impl<T> SharedList<T> {
 
 impl<T: Clone> SharedList<T> {
     /// Returns the elements for modification. Other copies of the list do not change.
-    pub fn to_mut(&mut self) -> &mut Vec<T> {
+    pub fn to_mut(&mut self) -> &mut SmallVec<[T; 1]> {
         Arc::make_mut(self.0.get_or_insert_with(Arc::default))
     }
 }
@@ -62,16 +62,16 @@ impl<T: PartialEq> PartialEq for SharedList<T> {
 impl<T: Eq> Eq for SharedList<T> {}
 
 impl<T> From<Vec<T>> for SharedList<T> {
-    fn from(mut list: Vec<T>) -> Self {
-        // Shrinking saves memory: most lists have one element, but a growing vector allocates memory for four.
-        list.shrink_to_fit();
-        SharedList((!list.is_empty()).then(|| Arc::new(list)))
+    fn from(list: Vec<T>) -> Self {
+        list.into_iter().collect()
     }
 }
 
 impl<T> FromIterator<T> for SharedList<T> {
     fn from_iter<I: IntoIterator<Item = T>>(list: I) -> Self {
-        list.into_iter().collect::<Vec<_>>().into()
+        let mut list: SmallVec<[T; 1]> = list.into_iter().collect();
+        list.shrink_to_fit();
+        SharedList((!list.is_empty()).then(|| Arc::new(list)))
     }
 }
 

@@ -1,5 +1,7 @@
 //! Facts that a description and its overlays state. Lints judge only these facts, and not the facts that profiles add.
 
+use std::sync::Arc;
+
 use super::owner::Owner;
 #[cfg(feature = "table")]
 use super::Documentation;
@@ -57,7 +59,7 @@ pub(crate) fn behavior(item: &Item) -> Option<&Behavior> {
 #[cfg(feature = "table")]
 pub(crate) fn description<'d>(
     origins: &FactOrigins,
-    documentation: &'d Option<Box<Documentation>>,
+    documentation: &'d Option<Arc<Documentation>>,
 ) -> Option<&'d Documentation> {
     stated(origins, Fact::Description, documentation.as_deref())
 }

@@ -1,6 +1,7 @@
 //! Types of values, and their definitions.
 
 use std::fmt;
+use std::sync::Arc;
 
 use super::{Access, Availability, CompactString, Documentation, Doubts, FactOrigin, ItemRef, Mark, Texts, Value};
 use crate::number::hex16;
@@ -222,7 +223,7 @@ pub struct TypeDef {
     /// Length of the type in bits, if fixed.
     pub bits: Option<u32>,
     /// Description of the type from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Ambiguities in the source about the type and its bits or values, with the assumptions made.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Doubts::is_empty"))]
     pub doubts: Doubts,
@@ -323,7 +324,7 @@ pub struct BitFieldEntry {
     /// Models and firmware versions in which the bits have this meaning.
     pub availability: Option<Box<Availability>>,
     /// Description of the field from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the field in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,
@@ -428,7 +429,7 @@ pub struct EnumValue {
     /// Models, firmware versions and buses that have the value.
     pub availability: Option<Box<Availability>>,
     /// Description of the value from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the value in the source.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub at: Mark,

@@ -1,5 +1,7 @@
 //! Facts of an item that differ between models or buses.
 
+use std::sync::Arc;
+
 use super::{Access, Buses, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
@@ -28,7 +30,7 @@ pub struct ItemVariant {
     /// Conversion between raw value and physical value.
     pub scale: Option<Scale>,
     /// Description of the variant from the source.
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     /// Location of the variant in the source.
     pub at: Span,
 }

@@ -34,14 +34,14 @@ struct Implied {
 
 impl Implied {
     /// Returns the item that this PDO entry maps. The first entry that maps an item gives its name and type.
-    fn item(&mut self, entry: &PdoEntry, origin: Origin) -> &mut Item {
+    fn item(&mut self, entry: &PdoEntry, origin: Origin, origins: &FactOrigins) -> &mut Item {
         let object = Some((entry.index, entry.sub_index));
         let position = self.items.iter().position(|item| item.object() == object);
         let position = position.unwrap_or_else(|| {
             let mut item = Item::new(Binding::coe(entry.index, entry.sub_index));
             (item.name, item.names) = (entry.name.clone(), entry.names.clone());
             (item.ty, item.origin) = (entry.ty, origin);
-            item.origins = FactOrigins::by_rule(&[Fact::Access, Fact::Mappable], Rule::MappedObject);
+            item.origins.clone_from(origins);
             // Most of these objects have one item, and `Vec` would allocate memory for four.
             self.items.reserve_exact(1);
             self.items.push(item);
@@ -53,6 +53,7 @@ impl Implied {
 
 fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
     let mut objects: BTreeMap<u16, Implied> = BTreeMap::new();
+    let origins = FactOrigins::by_rule(&[Fact::Access, Fact::Mappable], Rule::MappedObject);
     for pdo in pdos {
         for entry in &mut pdo.entries {
             if entry.kind != PdoEntryKind::Unknown || (entry.depends_on_slot && !is_module) {
@@ -66,7 +67,7 @@ fn complete(groups: &mut Vec<Group>, pdos: &mut [Pdo], is_module: bool) {
             if object.items.is_empty() {
                 object.origin = origin;
             }
-            let item = object.item(entry, origin);
+            let item = object.item(entry, origin, &origins);
             match pdo.direction {
                 Direction::Receive => (item.access, item.mappable.rpdo) = (Access::ReadWrite, true),
                 Direction::Transmit => item.mappable.tpdo = true,

@@ -542,7 +542,7 @@ fn what_an_object_says_counts_before_its_parameter() {
     assert_eq!((first.limits.low.clone(), first.limits.high.clone()), (Some(Value::Int(-10)), Some(Value::Int(16))));
     assert_eq!(first.names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>(), ["Drehzahl", "Speed"]);
     let documentation = first.documentation.as_ref().unwrap();
-    assert_eq!((documentation.text.as_str(), documentation.translations[0].language.as_str()), ("the speed", "de"));
+    assert_eq!((&*documentation.text, documentation.translations[0].language.as_str()), ("the speed", "de"));
     let quantity = first.quantity.as_ref().unwrap();
     assert_eq!((quantity.unit.as_str(), quantity.units[0].text.as_str()), ("rpm", "U/min"));
     assert_eq!(quantity.scale, Some(Scale::Linear { factor: 0.05, offset: 0.2 }));

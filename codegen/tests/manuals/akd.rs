@@ -98,7 +98,7 @@ fn revisions_of_the_hardware() {
     for ((line, cells), model) in printed.iter().zip(models) {
         assert_eq!(model.name, format!("revision {}", cells[0]), "line {line}");
         assert!(cited(model.documentation.as_deref()).contains(line), "line {line}");
-        let text = model.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+        let text = model.documentation.as_ref().map_or("", |documentation| &*documentation.text);
         // The letters in `01.06.xx.yyy` and `1.6.0.zzzzz` are placeholders.
         let version = |cell: &str| {
             cell.split(".x").next().and_then(|entry| entry.split(".z").next()).unwrap_or_default().to_owned()

@@ -166,7 +166,7 @@ fn inputs_and_outputs_are_the_printed_ones() {
             assert_eq!(rows.len(), count, "line {first}");
             for (line, pin, bit) in rows {
                 let field = bits_of(name).iter().find(|entry| u32::from(entry.offset) == bit).expect("a bit");
-                let text = field.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+                let text = field.documentation.as_ref().map_or("", |documentation| &*documentation.text);
                 let begin = format!("Pin {pin}");
                 let rest = text.strip_prefix(&begin).unwrap_or_else(|| panic!("line {line} pin {pin}: {text}"));
                 assert!(!rest.starts_with(|c: char| c.is_ascii_digit()), "line {line} pin {pin}: {text}");

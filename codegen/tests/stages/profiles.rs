@@ -130,13 +130,13 @@ fn what_the_device_says_of_itself_stays() {
         [bits.Mine.at]\n0 = \"go\"\n";
     let device = catalog("d.toml", table, &Options::default()).devices.remove(0);
     assert_eq!(type_name(&device, 0x6040, 0), "Mine");
-    assert_eq!(item(&device, 0x6040, 0).documentation.as_ref().expect("words").text, "Mine.");
+    assert_eq!(&*item(&device, 0x6040, 0).documentation.as_ref().expect("words").text, "Mine.");
     assert_eq!(type_name(&device, 0x6060, 0), "Mode");
     assert_eq!(type_name(&device, 0x6061, 0), "ModesOfOperation");
     let torque = item(&device, 0x6071, 0).quantity.as_ref().expect("a unit");
     assert_eq!((torque.unit.as_str(), torque.scale.clone()), ("mNm", None));
     let max = item(&device, 0x6072, 0);
-    assert_eq!(max.documentation.as_ref().expect("words").text, "Own words.");
+    assert_eq!(&*max.documentation.as_ref().expect("words").text, "Own words.");
     let quantity = max.quantity.as_ref().expect("a unit");
     let percent = Scale::Linear { factor: 0.1, offset: 0.0 };
     assert_eq!((quantity.unit.as_str(), quantity.scale.clone()), ("%", Some(percent)));

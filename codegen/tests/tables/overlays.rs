@@ -53,7 +53,7 @@ fn findings(compilation: &Compilation) -> Vec<(&'static str, String)> {
 }
 
 fn words(item: &Item) -> &str {
-    item.documentation.as_ref().map_or("", |documentation| documentation.text.as_str())
+    item.documentation.as_ref().map_or("", |documentation| &*documentation.text)
 }
 
 #[test]

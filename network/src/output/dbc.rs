@@ -170,7 +170,7 @@ fn mapped_type(ty: Type, bits: u8) -> Type {
 
 fn comment(item: &Item, entry: &MappedObject) -> String {
     let address = number::object(entry.index, entry.sub_index);
-    match item.documentation.as_ref().map(|documentation| documentation.text.as_str()) {
+    match item.documentation.as_ref().map(|documentation| &*documentation.text) {
         Some(text) if !text.is_empty() => format!("{address} {}: {text}", item.name),
         _ => format!("{address} {}", item.name),
     }

@@ -1,5 +1,7 @@
 //! Random names and texts: ordinary names, and names that conflict with Rust, with generated code, or with each other.
 
+use std::sync::Arc;
+
 use lexibus_codegen::ir::{
     Bus, Buses, CiteUnit, CompactString, Documentation, Doubt, Doubts, Extension, Extensions, Fact, FactOrigin,
     FactOrigins, LocalText, Manual, ManualSection, OverlayOrigin, Rule, Severity, Texts,
@@ -275,10 +277,10 @@ pub fn stated_by(b: &mut Bytes<'_>) -> Option<Box<FactOrigin>> {
     b.maybe(8, fact_origin).map(Box::new)
 }
 
-pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
+pub fn documentation(b: &mut Bytes<'_>) -> Option<Arc<Documentation>> {
     b.maybe(4, |b| {
         let cite = b.maybe(2, text);
-        Box::new(Documentation {
+        Arc::new(Documentation {
             text: text(b).into(),
             translations: texts(b),
             cite,

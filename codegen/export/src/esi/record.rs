@@ -1,5 +1,7 @@
 //! Objects with sub-indices and their record types.
 
+use std::sync::Arc;
+
 use compact_str::{format_compact, CompactString};
 
 use super::types::{unique, AddedType, SubItem, Types};
@@ -32,7 +34,7 @@ pub(super) struct FieldFacts {
     pub(super) read_states: Vec<CompactString>,
     pub(super) write_states: Vec<CompactString>,
     pub(super) names: Texts,
-    pub(super) documentation: Option<Box<Documentation>>,
+    pub(super) documentation: Option<Arc<Documentation>>,
 }
 
 impl FieldFacts {

@@ -1,5 +1,7 @@
 //! Tests exported ESI files: their content, validity, notes and refusals.
 
+use std::sync::Arc;
+
 use crate::corpus_support::root::root;
 use crate::corpus_support::round_trip::options;
 use crate::corpus_support::xsd::Schema;
@@ -119,7 +121,7 @@ fn the_description_of_a_pdo_is_left_out() {
     };
     let before = notes(&catalog);
     let pdo = &mut catalog.devices[0].process_data.pdos[0];
-    pdo.documentation = Some(Box::new(Documentation { text: "Velocity.".to_owned(), ..Documentation::default() }));
+    pdo.documentation = Some(Arc::new(Documentation { text: "Velocity.".into(), ..Documentation::default() }));
     let more = notes(&catalog);
     assert_ne!(before, more, "a note counts the fact");
     let count = |list: &[(NoteKind, usize)]| -> usize {

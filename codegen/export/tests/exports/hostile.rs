@@ -1,6 +1,8 @@
 //! Tests names that contain markup of the exported format. Reading an exported file must give the structure of the
 //! original.
 
+use std::sync::Arc;
+
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::ir::{Catalog, Documentation, Group, Pdo};
 use lexibus_codegen::source::Source;
@@ -44,7 +46,7 @@ fn rename(catalog: &mut Catalog, name: impl Fn(usize) -> String) {
             for item in &mut group.items {
                 item.name = next().into();
                 let text = next();
-                item.documentation = Some(Box::new(Documentation { text, ..Documentation::default() }));
+                item.documentation = Some(Arc::new(Documentation { text: text.into(), ..Documentation::default() }));
             }
         }
     }

@@ -24,7 +24,7 @@ macro_rules! show_as_text {
     };
 }
 
-show_as_text!(u8, u16, u32, u64, i32, i64, i128, f64, Bus, Buses, CompactString, String, Value);
+show_as_text!(u8, u16, u32, u64, i32, i64, i128, f64, Bus, Buses, CompactString, str, String, Value);
 
 impl<Id> Show for Reference<Id> {
     fn show(&self) -> String {
@@ -88,7 +88,7 @@ impl<T: Show> Show for Option<T> {
     }
 }
 
-impl<T: Show> Show for Box<T> {
+impl<T: Show + ?Sized> Show for Box<T> {
     fn show(&self) -> String {
         T::show(self)
     }

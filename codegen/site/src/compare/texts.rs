@@ -50,7 +50,7 @@ fn text_from(from: &Option<Box<FactOrigin>>) -> String {
 /// Joins the text of a description, its translations and its origin.
 pub(super) fn described(documentation: Option<&Documentation>) -> String {
     let Some(Documentation { text, translations, text_from, cite: _ }) = documentation else { return String::new() };
-    let parts = [text.clone(), translations.show(), self::text_from(text_from)];
+    let parts = [text.to_string(), translations.show(), self::text_from(text_from)];
     parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" ")
 }
 

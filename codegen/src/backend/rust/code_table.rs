@@ -47,7 +47,7 @@ fn model(
     let manual = &context.manual;
     let documentation = table.documentation.as_deref();
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
-    let text = documentation.map_or("", |documentation| documentation.text.as_str());
+    let text = documentation.map_or("", |documentation| &*documentation.text);
     if !text.is_empty() {
         docs.push(docs::sentence(&docs::escape(text)));
     }
@@ -82,7 +82,7 @@ fn model(
 /// Returns the expression for a row of a code table. Returns `None` if the first or last code does not fit in an `i64`.
 fn row(row: &CodeRow, columns: usize) -> Option<Doc> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
-    let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
+    let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.to_string());
     if let Some(availability) = &row.availability {
         let whole = if text.is_empty() { String::new() } else { docs::sentence(&text) + " " };
         text = whole + &WORDS.availability(availability);

@@ -27,7 +27,7 @@ fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel 
     if !composite.unit.is_empty() {
         sentences.push(format!("Unit: {}.", docs::escape(&composite.unit)));
     }
-    let text = composite.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    let text = composite.documentation.as_ref().map_or("", |documentation| &*documentation.text);
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }

@@ -57,7 +57,7 @@ pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentati
     if !is_same(name, rust) {
         parts.push(docs::sentence(&docs::escape(name)));
     }
-    let text = documentation.map_or("", |documentation| documentation.text.as_str());
+    let text = documentation.map_or("", |documentation| &*documentation.text);
     parts.push(start(text));
     parts.retain(|part| !part.trim().is_empty());
     parts.join(" ")
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn meanings() {
-        let text = |text: &str| Documentation { text: text.to_owned(), ..Documentation::default() };
+        let text = |text: &str| Documentation { text: text.into(), ..Documentation::default() };
         assert_eq!(meaning("Operation enabled", "operation_enabled", None), "");
         assert_eq!(meaning("I/O", "io", None), "I/O.");
         assert_eq!(meaning("Op. | enabled", "op_enabled_2", None), r"Op. \| enabled.");

@@ -81,7 +81,7 @@ mod tests {
 
     /// Returns the first phrase of an object's description and the index of the object: `the active mode of operation (0x6061)`.
     fn name(described: &profiles::Described) -> CompactString {
-        let text = described.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+        let text = described.documentation.as_ref().map_or("", |documentation| &*documentation.text);
         let phrase = text.split([':', '.']).next().unwrap_or_default();
         format!("the {} ({})", phrase.to_lowercase(), crate::number::hex16(described.indices.0)).into()
     }

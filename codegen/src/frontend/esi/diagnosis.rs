@@ -1,6 +1,7 @@
 //! Reads the diagnosis messages of a device, module or file.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use compact_str::CompactString;
 
@@ -136,7 +137,7 @@ fn documentation(
     reader: &mut Reader<'_, '_>,
     paragraphs: &[Paragraph<'_>],
     message: Span,
-) -> Option<Box<Documentation>> {
+) -> Option<Arc<Documentation>> {
     let join = |texts: &[CompactString]| -> String {
         let texts = paragraphs.iter().zip(texts).filter(|(_, text)| !text.is_empty());
         let titled = texts.map(|((title, _), text)| match *title {
@@ -161,5 +162,5 @@ fn documentation(
         LocalText { language: language.clone(), text: join(&paragraphs.collect::<Vec<_>>()).into() }
     };
     let translations = languages.into_iter().filter(|_| affordable).map(in_language).collect();
-    (!text.is_empty()).then(|| Box::new(Documentation { text, translations, ..Documentation::default() }))
+    (!text.is_empty()).then(|| Arc::new(Documentation { text: text.into(), translations, ..Documentation::default() }))
 }

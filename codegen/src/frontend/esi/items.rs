@@ -20,7 +20,7 @@ use super::value::{self, Role};
 use crate::diagnostics::codes;
 use crate::etg::unit;
 use crate::frontend::xml::Given;
-use crate::ir::{Access, Binding, Fact, FactOrigin, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
+use crate::ir::{Access, Binding, Fact, FactOrigins, Group, GroupKind, Item, ObjectCode, Quantity, Rule, Type};
 use crate::number::{hex16, hex8};
 use crate::text::brief;
 
@@ -42,7 +42,8 @@ pub(super) fn build<'a>(
     objects.sort_by_key(|object| object.index);
     objects.reverse();
     let mut fields = fields_of(types, raw, &objects);
-    let mut builder = Builder { types, units };
+    let missing_access = FactOrigins::by_rule(&[Fact::Access], Rule::MissingKey);
+    let mut builder = Builder { types, units, missing_access };
     let mut groups: Vec<Group> = Vec::with_capacity(objects.len());
     while let Some(object) = objects.pop() {
         let fields = fields.pop().flatten();
@@ -78,6 +79,8 @@ fn fields_of<'a>(
 struct Builder<'b, 'a> {
     types: &'b mut Types<'a>,
     units: &'b [(u32, CompactString)],
+    /// Origins of an item whose access rights are not declared.
+    missing_access: FactOrigins,
 }
 
 impl<'a> Builder<'_, 'a> {
@@ -394,7 +397,7 @@ impl<'a> Builder<'_, 'a> {
         let mut silent = 0;
         for item in group.items.iter_mut().filter(|item| item.at.access.is_empty()) {
             silent += 1;
-            item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
+            item.origins.clone_from(&self.missing_access);
         }
         if silent > 0 && reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
             let message = "the file does not declare the access rights of this object";

@@ -1,5 +1,7 @@
 //! Header of a file: file name, schema version, vendor, and family of devices.
 
+use std::sync::Arc;
+
 use super::reader::Reader;
 use super::resolve::Resolver;
 use crate::diagnostics::{codes, Diagnostics};
@@ -18,7 +20,7 @@ pub(super) struct Header {
     vendor_name: CompactString,
     device_id: Option<u32>,
     /// Placeholder for the description of the device family; see `text_references`.
-    description: Option<Box<Documentation>>,
+    description: Option<Arc<Documentation>>,
     family: (CompactString, CompactString),
     /// Version of the GSDML schema, and the span of the version.
     version: Option<(CompactString, Span)>,
@@ -63,7 +65,7 @@ impl Header {
     /// Adds the facts in the header to every device.
     pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
         resolver.documentation(&mut self.description);
-        let description = self.description.as_ref().map_or("", |documentation| documentation.text.as_str());
+        let description = self.description.as_ref().map_or("", |documentation| &*documentation.text);
         let version = self.version.as_ref().map_or_else(CompactString::default, |(text, _)| text.clone());
         let family = self.family.0.len() + self.family.1.len();
         let weight = self.vendor_name.len() + description.len() + family + version.len();
@@ -85,7 +87,7 @@ impl Header {
             }
         }
         if let Some(documentation) = self.description {
-            catalog.descriptions = documentation.translations;
+            catalog.descriptions.clone_from(&documentation.translations);
         }
     }
 

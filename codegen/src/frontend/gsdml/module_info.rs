@@ -1,5 +1,7 @@
 //! Reads `ModuleInfo` and `Graphics` elements, which modules, submodules and device access points have.
 
+use std::sync::Arc;
+
 use compact_str::format_compact;
 
 use super::links::ElementKind;
@@ -13,7 +15,7 @@ use crate::syntax::xml::Tag;
 pub(super) struct Info<'a> {
     /// Placeholder for the name of the module, submodule or device.
     pub name: CompactString,
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     pub vendor: Given<'a>,
     pub order: Given<'a>,
     pub hardware: Given<'a>,
@@ -81,7 +83,7 @@ impl Info<'_> {
     pub fn add_to(
         self,
         name: &mut CompactString,
-        documentation: &mut Option<Box<Documentation>>,
+        documentation: &mut Option<Arc<Documentation>>,
         identity: &mut Identity,
         attributes: &mut Attributes,
     ) {

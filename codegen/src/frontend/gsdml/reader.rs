@@ -1,5 +1,7 @@
 //! State of the GSDML reader, and functions for identifiers, text references and required attributes.
 
+use std::sync::Arc;
+
 use compact_str::format_compact;
 
 use super::links::{ElementKind, Links};
@@ -99,9 +101,9 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads an element that has only a `TextId`, and returns the placeholder as documentation.
-    pub fn documentation(&mut self, tag: &Tag<'a>) -> Read<Option<Box<Documentation>>> {
+    pub fn documentation(&mut self, tag: &Tag<'a>) -> Read<Option<Arc<Documentation>>> {
         let text = self.text_reference(tag)?.into();
-        Ok(Some(Box::new(Documentation { text, ..Documentation::default() })))
+        Ok(Some(Arc::new(Documentation { text, ..Documentation::default() })))
     }
 
     /// Registers the identifier of the element `tag`, whose position in the catalog is `position`. The first element takes

@@ -1,6 +1,7 @@
 //! Replaces the placeholders in names and descriptions with texts.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use compact_str::{format_compact, CompactString};
 
@@ -177,9 +178,9 @@ impl<'a, 'd> Resolver<'a, 'd> {
     }
 
     /// Replaces the placeholder in a description with its text and translations.
-    pub fn documentation(&mut self, documentation: &mut Option<Box<Documentation>>) {
-        let Some(documentation) = documentation else { return };
-        let mut text = CompactString::from(documentation.text.as_str());
+    pub fn documentation(&mut self, documentation: &mut Option<Arc<Documentation>>) {
+        let Some(documentation) = documentation.as_mut().map(Arc::make_mut) else { return };
+        let mut text = CompactString::from(&*documentation.text);
         self.name(&mut text, &mut documentation.translations);
         documentation.text = text.into();
     }

@@ -1,6 +1,7 @@
 //! Types of the catalog: named numbers and strings of GSDML, and the enumerations in the value list.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::data_type::{DataType, NumberType, PairType, StringType};
 use super::links::unresolved;
@@ -28,7 +29,7 @@ pub(super) struct Types<'a> {
 #[derive(Default)]
 pub(super) struct ValueItem {
     pub id: CompactString,
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
     pub values: Vec<EnumValue>,
     pub origin: Origin,
     used: bool,

@@ -28,7 +28,9 @@ fn text(at: &At<String>) -> CompactString {
 /// messages transfer.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, file: &mut Table<'a>, rows: &mut Rows, device: &mut Device) {
     let mut names = HashSet::default();
-    for table in file.list::<MessageTable>(reader, "messages") {
+    let tables = file.list::<MessageTable>(reader, "messages");
+    device.messages.reserve_exact(tables.len().min(limits::MAX_MESSAGES));
+    for table in tables {
         rows.allow_at(reader, (table.start, end(&table)), &table.value.allow);
         if device.messages.len() >= limits::MAX_MESSAGES {
             too_many(reader, &table);
@@ -230,7 +232,7 @@ struct Fields<'r, 's, 'd> {
 
 impl Fields<'_, '_, '_> {
     fn list(&mut self, list: &[At<FieldTable>], depth: usize) -> Vec<MessageField> {
-        let mut fields: Vec<MessageField> = Vec::new();
+        let mut fields: Vec<MessageField> = Vec::with_capacity(list.len());
         let mut before = HashSet::default();
         for field in list {
             let message_field = self.one(field, &before, depth);

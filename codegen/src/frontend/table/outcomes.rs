@@ -1,5 +1,7 @@
 //! Reads the state-command matrix of a state machine: the outcome of each command in each state.
 
+use std::sync::Arc;
+
 use super::at::{At, TextOr};
 use super::conditions;
 use super::format::{MatrixCell, MatrixRow, MatrixTable};
@@ -99,7 +101,7 @@ fn cell(
     table: &MatrixTable,
     given: &At<TextOr<MatrixCell>>,
     names: &Names<'_>,
-) -> (Vec<Outcome>, Option<Box<Documentation>>) {
+) -> (Vec<Outcome>, Option<Arc<Documentation>>) {
     let span = reader.span(given);
     let cell = match &given.value {
         TextOr::Text(text) => return (outcomes(reader, text, span, names), None),
@@ -131,7 +133,8 @@ fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names<'
     if text.trim() == "?" {
         return Vec::new();
     }
-    let (mut found, mut known) = (Vec::new(), HashSet::default());
+    let alternatives = text.matches(" or ").count() + 1;
+    let (mut found, mut known) = (Vec::with_capacity(alternatives), HashSet::default());
     for one in text.split(" or ").map(str::trim) {
         let outcome = match one {
             "same" => Outcome::Unchanged,

@@ -1,5 +1,7 @@
 //! Converts rows of a register table to items.
 
+use std::sync::Arc;
+
 use compact_str::CompactString;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
@@ -436,7 +438,7 @@ impl Rows {
 const PRINTED_NAME: &str = "name";
 
 /// Returns the documentation of a row, with the origin of its text.
-pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Box<Documentation>> {
+pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Arc<Documentation>> {
     if let (Some(from), None) = (&row.doc_from, &row.doc) {
         reader.report(&codes::TABLE_VALUE, reader.span(from), "the row has `doc_from`, but no `doc`");
     }
@@ -446,7 +448,7 @@ pub(super) fn documentation(reader: &mut Reader<'_, '_>, row: &Row) -> Option<Bo
             PRINTED_NAME => FactOrigin::PrintedName,
             standard => FactOrigin::Standard(standard.into()),
         };
-        documentation.text_from = (!from.value.is_empty()).then(|| Box::new(origin));
+        Arc::make_mut(documentation).text_from = (!from.value.is_empty()).then(|| Box::new(origin));
     }
     documentation
 }

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use compact_str::CompactString;
 use toml_parser::{Expected, ParseError};
@@ -264,17 +265,17 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the documentation of an element, from its description and citation.
-    pub fn documentation(&self, doc: Option<&str>, cite: Option<String>) -> Option<Box<Documentation>> {
+    pub fn documentation(&self, doc: Option<&str>, cite: Option<String>) -> Option<Arc<Documentation>> {
         if doc.is_none() && cite.is_none() {
             return None;
         }
-        let text = doc.unwrap_or_default().to_owned();
+        let text = doc.unwrap_or_default().into();
         let (cite, text_from) = match self.standard.as_str() {
             "" => (cite.map(CompactString::from), None),
             // An element that cites no clause has no recorded origin. Usually, it is part of an element that cites a clause.
             standard => (None, cite.map(|clause| FactOrigin::Standard(standard_and_clause(standard, &clause).into()))),
         };
-        Some(Box::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
+        Some(Arc::new(Documentation { text, cite, text_from: text_from.map(Box::new), ..Documentation::default() }))
     }
 
     /// Returns the original name of an element as a text in the language of the manual.
@@ -284,7 +285,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Returns the documentation that a table contains.
-    pub fn documentation_of(&self, table: &(impl Documented + Cited)) -> Option<Box<Documentation>> {
+    pub fn documentation_of(&self, table: &(impl Documented + Cited)) -> Option<Arc<Documentation>> {
         self.documentation(table.doc(), table.cited())
     }
 

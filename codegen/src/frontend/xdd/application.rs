@@ -3,6 +3,7 @@
 //! Values are converted when an object refers to their parameter, because the object may declare the data type.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use super::attributes::Attributes;
 use super::data_type::{RawType, TypeRef};
@@ -141,7 +142,7 @@ impl<'p, 'a> View<'p, 'a> {
     }
 
     /// Returns the description of the parameter, or of the template if the parameter has none.
-    pub fn documentation(&self) -> Option<Box<Documentation>> {
+    pub fn documentation(&self) -> Option<Arc<Documentation>> {
         self.find(|parameter| parameter.texts.documentation())
     }
 

@@ -131,7 +131,7 @@ fn parse(given: &Given<'_>) -> Option<i128> {
 fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
     let texts = reader.texts(parent)?;
     let documentation = texts.documentation().unwrap_or_default();
-    device.header.description = documentation.text.into();
+    device.header.description = (&*documentation.text).into();
     let others = documentation.translations.iter().cloned().chain(texts.labels.all());
     reader.extensions.extend(others.map(|text| {
         let key = compact_str::format_compact!("productText/{}", text.language);

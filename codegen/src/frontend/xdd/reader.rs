@@ -1,5 +1,7 @@
 //! State of the XDD reader, and functions that read labels and descriptions.
 
+use std::sync::Arc;
+
 use compact_str::CompactString;
 
 use crate::diagnostics::{codes, Code};
@@ -55,7 +57,7 @@ pub(super) struct Texts<'a> {
 
 impl Texts<'_> {
     /// Returns the descriptions as documentation of an element, or `None` if there is no description.
-    pub fn documentation(&self) -> Option<Box<Documentation>> {
+    pub fn documentation(&self) -> Option<Arc<Documentation>> {
         self.descriptions.as_ref()?.documentation()
     }
 }

@@ -1,5 +1,7 @@
 //! Text in the languages of a file.
 
+use std::sync::Arc;
+
 use compact_str::CompactString;
 use smallvec::SmallVec;
 
@@ -84,9 +86,9 @@ impl<'a, L: Language> Names<'a, L> {
 
     /// Returns the texts as documentation of an element: the text with the lowest rank as the description, and the
     /// others as translations. Returns `None` if there is no text.
-    pub fn documentation(&self) -> Option<Box<Documentation>> {
-        let text = self.given()?.text.to_string();
-        Some(Box::new(Documentation { text, translations: self.others(), ..Documentation::default() }))
+    pub fn documentation(&self) -> Option<Arc<Documentation>> {
+        let text = self.given()?.text.as_ref().into();
+        Some(Arc::new(Documentation { text, translations: self.others(), ..Documentation::default() }))
     }
 
     /// Returns the number of bytes that a copy of all texts needs.

@@ -3,6 +3,8 @@
 //! A profile does not change facts that the description states. A profile adds nothing to an item whose type does not match the
 //! type in the profile, or to a missing object. Such differences are not reported.
 
+use std::sync::Arc;
+
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::collections::HashMap;
 use crate::ir::object_names::{in_range, item_at, item_name, name_conditions};
@@ -10,8 +12,8 @@ use crate::ir::owner::Owner;
 use crate::ir::stated::is_of_profile;
 use crate::ir::{
     Binding, BitFieldEntry, BitMeaning, CodeTable, CompactString, Condition, Device, Direction, Documentation, Fact,
-    FactOrigin, Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine, Submodule,
-    Type, TypeDef, TypeId, TypeRef,
+    FactOrigin, FactOrigins, Group, IoData, Item, Module, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Shape, StateMachine,
+    Submodule, Type, TypeDef, TypeId, TypeRef,
 };
 use crate::source::{FileId, Origin};
 
@@ -28,6 +30,9 @@ pub(crate) struct Completion<'p> {
     types: Vec<TypeDef>,
     /// Types that were added, by the type in the profile and the underlying integer.
     added: HashMap<(TypeId, Type), TypeId>,
+    /// Fact origins of the last item that each of the profile's objects completed. Further items of the same object mostly have the
+    /// same origins and share this list.
+    origins: Vec<FactOrigins>,
 }
 
 /// The old and the new type of each changed item, by index and sub-index.
@@ -35,7 +40,8 @@ type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
     pub(crate) fn new(profile: &'p Profile) -> Self {
-        Completion { profile, types: Vec::new(), added: HashMap::default() }
+        let origins = vec![FactOrigins::default(); profile.objects.len()];
+        Completion { profile, types: Vec::new(), added: HashMap::default(), origins }
     }
 
     /// Completes the objects, code tables and state machines of a device. `is_table` returns whether a file is a register table
@@ -85,17 +91,18 @@ impl<'p> Completion<'p> {
         let before = types.len();
         let shifts = self.axes(groups);
         self.start(types);
-        let mut replaced = Replaced::default();
-        for described in &self.profile.objects {
+        let (mut replaced, mut origins) = (Replaced::default(), std::mem::take(&mut self.origins));
+        for (described, origins) in self.profile.objects.iter().zip(&mut origins) {
             let (first, last) = described.indices;
             let is_of_axis = AXIS.contains(&first) && AXIS.contains(&last);
             for shift in shifts.iter().take(if is_of_axis { shifts.len() } else { 1 }) {
                 let (first, last) = (first.saturating_add(*shift), last.saturating_add(*shift));
                 for group in in_range(groups, first, last) {
-                    self.group(group, described, &mut replaced);
+                    self.group(group, described, origins, &mut replaced);
                 }
             }
         }
+        self.origins = origins;
         self.finish(types, before);
         let value_names = |when: &Condition| self.profile.value_names(when);
         name_conditions(groups, types.get_mut(before..).unwrap_or_default(), &value_names);
@@ -118,9 +125,9 @@ impl<'p> Completion<'p> {
         shifts
     }
 
-    fn group(&mut self, group: &mut Group, described: &Described, replaced: &mut Replaced) {
+    fn group(&mut self, group: &mut Group, described: &Described, origins: &mut FactOrigins, replaced: &mut Replaced) {
         if described.subs.is_none() && group.object_code().is_some_and(ObjectCode::has_subs) {
-            if describe(&mut group.documentation, described.documentation.as_deref()) {
+            if describe(&mut group.documentation, described.documentation.as_ref()) {
                 group.origins.set(Fact::Description, Some(FactOrigin::Standard(described.standard.clone())));
             }
             return;
@@ -131,6 +138,7 @@ impl<'p> Completion<'p> {
             if let Some(types) = self.item(item, described) {
                 replaced.insert(object, types);
             }
+            item.origins.share(origins);
         }
     }
 
@@ -158,7 +166,7 @@ impl<'p> Completion<'p> {
             }
             item.origins.set(fact, Some(standard.clone()));
         }
-        if describe(&mut item.documentation, described.documentation.as_deref()) {
+        if describe(&mut item.documentation, described.documentation.as_ref()) {
             item.origins.set(Fact::Description, Some(standard));
         }
         (item.ty != old).then_some((old, item.ty))
@@ -214,7 +222,7 @@ impl<'p> Completion<'p> {
     }
 
     /// Returns the origin of a definition: the clause that its description cites, or the standard as a whole.
-    fn standard(&self, documentation: &Option<Box<Documentation>>) -> Option<Box<FactOrigin>> {
+    fn standard(&self, documentation: &Option<Arc<Documentation>>) -> Option<Box<FactOrigin>> {
         let cited = documentation.as_deref().and_then(|documentation| documentation.text_from.clone());
         Some(cited.unwrap_or_else(|| Box::new(FactOrigin::Standard(self.profile.name.clone()))))
     }
@@ -314,11 +322,12 @@ fn is_on_bus(item: &Item, described: &Described) -> bool {
 
 /// Adds the description of a profile if the element has no description, and returns whether it was added. An existing citation
 /// does not change.
-fn describe(documentation: &mut Option<Box<Documentation>>, of_profile: Option<&Documentation>) -> bool {
+fn describe(documentation: &mut Option<Arc<Documentation>>, of_profile: Option<&Arc<Documentation>>) -> bool {
     let Some(of_profile) = of_profile else { return false };
     match documentation {
-        None => *documentation = Some(Box::new(of_profile.clone())),
+        None => *documentation = Some(Arc::clone(of_profile)),
         Some(documentation) if documentation.text.is_empty() => {
+            let documentation = Arc::make_mut(documentation);
             documentation.text.clone_from(&of_profile.text);
             documentation.text_from.clone_from(&of_profile.text_from);
         }

@@ -1,5 +1,7 @@
 //! Data of a profile.
 
+use std::sync::Arc;
+
 use crate::ir::owner::object;
 use crate::ir::{
     Behavior, CodeTable, CompactString, Condition, Direction, Documentation, Group, ObjectBuses, ObjectCode, Quantity,
@@ -53,7 +55,7 @@ pub(crate) struct Described {
     pub standard: CompactString,
     pub quantity: Option<Box<Quantity>>,
     pub behavior: Option<Box<Behavior>>,
-    pub documentation: Option<Box<Documentation>>,
+    pub documentation: Option<Arc<Documentation>>,
 }
 
 /// A signal of a telegram.

@@ -3,6 +3,8 @@
 //! A unit test checks that the files `stored/*.txt` contain the facts of `dictionaries/profiles/*.toml`. To write the files, run
 //! `LEXIBUS_BLESS=1 cargo test -p lexibus-codegen --lib resolve::profiles::stored`.
 
+use std::sync::Arc;
+
 use super::profile::{Described, Profile, Signal, Telegram};
 use crate::ir::{
     Access, Behavior, BitFieldEntry, BitMeaning, CodeRow, CodeTable, CommandRef, CompactString, Condition, Direction,
@@ -37,6 +39,17 @@ fn write(text: &mut String, field: &str) {
     assert!(!field.contains(['\t', '\n']), "{field:?} cannot be stored");
     text.push_str(field);
     text.push('\t');
+}
+
+impl Stored for Box<str> {
+    fn read(fields: &mut Fields<'_>) -> Option<Self> {
+        next(fields).map(Box::from)
+    }
+
+    #[cfg(test)]
+    fn write(&self, text: &mut String) {
+        write(text, self);
+    }
 }
 
 /// Implements `Stored` for types that are parsed from a single field.
@@ -186,16 +199,23 @@ impl<A: Stored, B: Stored> Stored for (A, B) {
     }
 }
 
-impl<T: Stored> Stored for Box<T> {
-    fn read(fields: &mut Fields<'_>) -> Option<Self> {
-        T::read(fields).map(Box::new)
-    }
+/// Reads and writes a pointer like the value it points to.
+macro_rules! pointers {
+    ($($pointer:ident),*) => {$(
+        impl<T: Stored> Stored for $pointer<T> {
+            fn read(fields: &mut Fields<'_>) -> Option<Self> {
+                T::read(fields).map($pointer::new)
+            }
 
-    #[cfg(test)]
-    fn write(&self, text: &mut String) {
-        T::write(self, text);
-    }
+            #[cfg(test)]
+            fn write(&self, text: &mut String) {
+                T::write(self, text);
+            }
+        }
+    )*};
 }
+
+pointers!(Box, Arc);
 
 impl<T: Stored> Stored for Option<T> {
     fn read(fields: &mut Fields<'_>) -> Option<Self> {

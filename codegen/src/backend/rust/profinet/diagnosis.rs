@@ -69,7 +69,7 @@ fn error(key: Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) ->
 }
 
 fn texts(row: &CodeRow) -> (String, String) {
-    let help = row.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    let help = row.documentation.as_ref().map_or("", |documentation| &*documentation.text);
     (literal::string(&row.name), literal::string(help))
 }
 

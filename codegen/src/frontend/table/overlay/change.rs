@@ -1,6 +1,7 @@
 //! Applies a row of an overlay to a description, and records the reason for the change.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::super::at::TextOr;
 use super::super::definitions::DefinitionKind;
@@ -414,7 +415,7 @@ pub(super) fn file_name(reader: &Reader<'_, '_>) -> CompactString {
     crate::text::file_name(reader.source.name()).into()
 }
 
-fn is_described(documentation: &Option<Box<Documentation>>) -> bool {
+fn is_described(documentation: &Option<Arc<Documentation>>) -> bool {
     documentation.as_deref().is_some_and(|documentation| !documentation.text.is_empty())
 }
 
@@ -465,22 +466,21 @@ fn exists(groups: &[Group], objects: Objects) -> bool {
 }
 
 /// Restores the text and translations that the documentation had before a row without `doc` changed the item.
-fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
+fn keep_words(documentation: &mut Option<Arc<Documentation>>, before: Option<&Documentation>) {
     let Some(before) = before else { return };
     match documentation {
         Some(documentation) => {
+            let documentation = Arc::make_mut(documentation);
             (documentation.text, documentation.translations) = (before.text.clone(), before.translations.clone())
         }
-        None => *documentation = Some(Box::new(before.clone())),
+        None => *documentation = Some(Arc::new(before.clone())),
     }
 }
 
 /// Adds the reason for a change to the documentation of the changed element.
-fn explain(what: &str, why: &str, documentation: &mut Option<Box<Documentation>>) {
-    let documentation = documentation.get_or_insert_default();
-    if !documentation.text.is_empty() {
-        documentation.text.push('\n');
-    }
+fn explain(what: &str, why: &str, documentation: &mut Option<Arc<Documentation>>) {
+    let documentation = Arc::make_mut(documentation.get_or_insert_default());
+    let gap = if documentation.text.is_empty() { "" } else { "\n" };
     let end = if why.ends_with(['.', '!', '?']) { "" } else { "." };
-    documentation.text += &format!("{what} by an overlay: {why}{end}");
+    documentation.text = format!("{}{gap}{what} by an overlay: {why}{end}", documentation.text).into();
 }
