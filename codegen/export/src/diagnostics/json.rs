@@ -1,43 +1,10 @@
 //! Diagnostics for programs, as JSON lines.
 
-use serde::Serialize;
-
 use lexibus_codegen::diagnostics::render::marked::{self, MarkedSource};
-use lexibus_codegen::diagnostics::{Diagnostic, Note, Severity};
+use lexibus_codegen::diagnostics::{Diagnostic, Note};
 use lexibus_codegen::source::Source;
 
-/// A diagnostic as a JSON object. Missing values are `null`, so each line has all keys.
-#[derive(Serialize)]
-struct Line<'a> {
-    code: &'a str,
-    name: &'a str,
-    severity: Severity,
-    message: &'a str,
-    file: Option<&'a str>,
-    line: Option<u32>,
-    column: Option<u32>,
-    end_line: Option<u32>,
-    end_column: Option<u32>,
-    start: Option<usize>,
-    end: Option<usize>,
-    source: Option<String>,
-    label: Option<&'a str>,
-    notes: Vec<NoteLine<'a>>,
-    help: Option<&'a str>,
-    fix: Option<&'a str>,
-    more: Option<usize>,
-}
-
-#[derive(Serialize)]
-struct NoteLine<'a> {
-    message: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    file: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    column: Option<u32>,
-}
+use super::ordered::{list, object, without_nulls, Json};
 
 /// Returns the diagnostic as one line of JSON, without a line feed.
 ///
@@ -50,40 +17,37 @@ struct NoteLine<'a> {
 pub fn line(diagnostic: &Diagnostic, sources: &[Source]) -> String {
     let place = MarkedSource::of(diagnostic.span, sources);
     let mark = place.and_then(|place| place.mark);
-    let line = Line {
-        code: diagnostic.code.id,
-        name: diagnostic.code.name,
-        severity: diagnostic.severity,
-        message: &diagnostic.message,
-        file: place.map(|place| place.source.name()),
-        line: mark.map(|mark| mark.from.line),
-        column: mark.map(|mark| mark.from.column),
-        end_line: mark.map(|mark| mark.to.line),
-        end_column: mark.map(|mark| mark.to.column),
-        start: mark.map(|mark| mark.start),
-        end: mark.map(|mark| mark.end),
-        source: place.and_then(|place| Some(marked::quoted(place.source, &place.mark?))),
-        label: Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()),
-        notes: notes(diagnostic, sources),
-        help: diagnostic.help.as_deref(),
-        fix: diagnostic.fix.as_deref(),
-        more: Some(diagnostic.more).filter(|&more| more > 0),
-    };
-    super::escaped(serde_json::to_string(&line).expect("strings and numbers serialize"))
+    let line = object([
+        ("code", diagnostic.code.id.into()),
+        ("name", diagnostic.code.name.into()),
+        ("severity", diagnostic.severity.name().into()),
+        ("message", diagnostic.message.as_str().into()),
+        ("file", place.map(|place| place.source.name()).into()),
+        ("line", mark.map(|mark| mark.from.line).into()),
+        ("column", mark.map(|mark| mark.from.column).into()),
+        ("end_line", mark.map(|mark| mark.to.line).into()),
+        ("end_column", mark.map(|mark| mark.to.column).into()),
+        ("start", mark.map(|mark| mark.start).into()),
+        ("end", mark.map(|mark| mark.end).into()),
+        ("source", place.and_then(|place| Some(marked::quoted(place.source, &place.mark?))).into()),
+        ("label", Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).into()),
+        ("notes", list(diagnostic.notes.iter().map(|each| note(each, sources)))),
+        ("help", diagnostic.help.as_deref().into()),
+        ("fix", diagnostic.fix.as_deref().into()),
+        ("more", Some(diagnostic.more).filter(|&more| more > 0).into()),
+    ]);
+    line.to_text()
 }
 
-fn notes<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source]) -> Vec<NoteLine<'a>> {
-    let line = |note: &'a Note| {
-        let place = note.span.and_then(|span| MarkedSource::of(span, sources));
-        let from = place.and_then(|place| place.mark).map(|mark| mark.from);
-        NoteLine {
-            message: &note.message,
-            file: place.map(|place| place.source.name()),
-            line: from.map(|from| from.line),
-            column: from.map(|from| from.column),
-        }
-    };
-    diagnostic.notes.iter().map(line).collect()
+fn note<'a>(note: &'a Note, sources: &'a [Source]) -> Json<'a> {
+    let place = note.span.and_then(|span| MarkedSource::of(span, sources));
+    let from = place.and_then(|place| place.mark).map(|mark| mark.from);
+    without_nulls([
+        ("message", note.message.as_str().into()),
+        ("file", place.map(|place| place.source.name()).into()),
+        ("line", from.map(|from| from.line).into()),
+        ("column", from.map(|from| from.column).into()),
+    ])
 }
 
 #[cfg(test)]

@@ -4,34 +4,15 @@
 
 pub mod github;
 pub mod json;
+mod ordered;
 pub mod sarif;
-
-use lexibus_codegen::text::steers;
-
-/// Escapes control characters in a JSON text. JSON allows some control characters in strings, but a terminal would
-/// interpret them.
-///
-/// Control characters occur only in strings, where the escape sequence has the same meaning.
-pub(crate) fn escaped(json: String) -> String {
-    if !json.contains(steers) {
-        return json;
-    }
-    let mut text = String::with_capacity(json.len() + 16);
-    for c in json.chars() {
-        if steers(c) {
-            text += &format!("\\u{:04x}", u32::from(c));
-        } else {
-            text.push(c);
-        }
-    }
-    text
-}
 
 #[cfg(test)]
 mod tests {
     use lexibus_codegen::diagnostics::{codes, Diagnostic, Diagnostics};
     use lexibus_codegen::limits::MAX_SAME_DIAGNOSTICS;
     use lexibus_codegen::source::{FileId, Source, Span};
+    use lexibus_codegen::text::steers;
 
     use super::{github, json, sarif};
 
@@ -68,7 +49,7 @@ mod tests {
             let span = Span::new(FileId(0), start, end);
             let diagnostic = Diagnostic::new(&codes::OCTAL_NUMBER, span, "message").note_at(span, "note").fix("10");
             assert!(!json::line(&diagnostic, &sources).contains('\n'));
-            assert!(!github::line(&diagnostic, &sources).contains(super::steers));
+            assert!(!github::line(&diagnostic, &sources).contains(steers));
             assert!(serde_json::from_str::<serde_json::Value>(&sarif::document(&[diagnostic], &sources, "")).is_ok());
         }
     }

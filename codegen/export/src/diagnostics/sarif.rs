@@ -4,135 +4,14 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
-
 use lexibus_codegen::diagnostics::render::marked::{Mark, MarkedSource};
-use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note, Severity};
+use lexibus_codegen::diagnostics::{Code, Diagnostic, Level, Note};
 use lexibus_codegen::source::Source;
+
+use super::ordered::{list, object, without_nulls, Json};
 
 /// Maximum length in bytes of the marked text in a log.
 const MAX_SNIPPET: usize = 1000;
-
-#[derive(Serialize)]
-struct Log<'a> {
-    #[serde(rename = "$schema")]
-    schema: &'static str,
-    version: &'static str,
-    runs: [Run<'a>; 1],
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Run<'a> {
-    tool: Tool<'a>,
-    column_kind: &'static str,
-    newline_sequences: [&'static str; 3],
-    results: Vec<Outcome<'a>>,
-}
-
-#[derive(Serialize)]
-struct Tool<'a> {
-    driver: Driver<'a>,
-}
-
-#[derive(Serialize)]
-struct Driver<'a> {
-    name: &'static str,
-    version: &'a str,
-    rules: Vec<Rule>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Rule {
-    id: &'static str,
-    name: String,
-    short_description: Message<'static>,
-    full_description: Message<'static>,
-    help: Message<'static>,
-    default_configuration: Configuration,
-}
-
-#[derive(Serialize)]
-struct Configuration {
-    enabled: bool,
-    level: &'static str,
-}
-
-#[derive(Serialize)]
-struct Message<'a> {
-    text: std::borrow::Cow<'a, str>,
-}
-
-/// A `result` object of SARIF.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Outcome<'a> {
-    rule_id: &'static str,
-    rule_index: usize,
-    level: &'static str,
-    message: Message<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    occurrence_count: Option<usize>,
-    locations: Vec<Location<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    related_locations: Vec<Location<'a>>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixes: Vec<Fix<'a>>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Location<'a> {
-    physical_location: PhysicalLocation<'a>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    message: Option<Message<'a>>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct PhysicalLocation<'a> {
-    artifact_location: ArtifactLocation,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    region: Option<Region<'a>>,
-}
-
-#[derive(Serialize)]
-struct ArtifactLocation {
-    uri: String,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Region<'a> {
-    start_line: u32,
-    start_column: u32,
-    end_line: u32,
-    end_column: u32,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    snippet: Option<Message<'a>>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Fix<'a> {
-    description: Message<'a>,
-    artifact_changes: [ArtifactChange<'a>; 1],
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct ArtifactChange<'a> {
-    artifact_location: ArtifactLocation,
-    replacements: [Replacement<'a>; 1],
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Replacement<'a> {
-    deleted_region: Region<'a>,
-    inserted_content: Message<'a>,
-}
 
 /// Returns the diagnostics as a SARIF 2.1.0 log of one run of `lexibus` version `tool_version`.
 ///
@@ -152,49 +31,55 @@ pub fn document(diagnostics: &[Diagnostic], sources: &[Source], tool_version: &s
         });
         results.push(outcome(diagnostic, sources, rule_index));
     }
-    let run = Run {
-        tool: Tool { driver: Driver { name: "lexibus", version: tool_version, rules } },
-        column_kind: "unicodeCodePoints",
+    let driver = object([("name", "lexibus".into()), ("version", tool_version.into()), ("rules", list(rules))]);
+    let run = object([
+        ("tool", object([("driver", driver)])),
+        ("columnKind", "unicodeCodePoints".into()),
         // The longest newline sequence comes first, because readers use the first sequence that matches.
-        newline_sequences: ["\r\n", "\n", "\r"],
-        results,
-    };
-    let log = Log { schema: "https://json.schemastore.org/sarif-2.1.0.json", version: "2.1.0", runs: [run] };
-    super::escaped(serde_json::to_string(&log).expect("strings and numbers serialize"))
+        ("newlineSequences", list(["\r\n", "\n", "\r"])),
+        ("results", list(results)),
+    ]);
+    let log = object([
+        ("$schema", "https://json.schemastore.org/sarif-2.1.0.json".into()),
+        ("version", "2.1.0".into()),
+        ("runs", list([run])),
+    ]);
+    log.to_text()
 }
 
-fn rule(code: &'static Code) -> Rule {
-    Rule {
-        id: code.id,
-        name: pascal_case(code.name),
-        short_description: message(code.summary),
-        full_description: message(code.explanation),
-        help: message(code.explanation),
-        default_configuration: Configuration {
-            enabled: code.default != Level::Allow,
-            level: if code.default == Level::Deny { "error" } else { "warning" },
-        },
-    }
+fn rule(code: &'static Code) -> Json<'static> {
+    let configuration = object([
+        ("enabled", (code.default != Level::Allow).into()),
+        ("level", if code.default == Level::Deny { "error" } else { "warning" }.into()),
+    ]);
+    object([
+        ("id", code.id.into()),
+        ("name", pascal_case(code.name).into()),
+        ("shortDescription", message(code.summary)),
+        ("fullDescription", message(code.explanation)),
+        ("help", message(code.explanation)),
+        ("defaultConfiguration", configuration),
+    ])
 }
 
-fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Outcome<'a> {
+/// Returns a `result` object of SARIF.
+fn outcome<'a>(diagnostic: &'a Diagnostic, sources: &'a [Source], rule_index: usize) -> Json<'a> {
     let place = MarkedSource::of(diagnostic.span, sources);
     let label = Some(diagnostic.label.as_str()).filter(|label| !label.is_empty()).map(message);
-    let fixes: Vec<Fix> = place.and_then(|place| fix(diagnostic, place)).into_iter().collect();
-    let related = |note: &'a Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(&note.message))));
-    Outcome {
-        rule_id: diagnostic.code.id,
-        rule_index,
-        level: match diagnostic.severity {
-            Severity::Error => "error",
-            Severity::Warning => "warning",
-        },
-        message: Message { text: full_message(diagnostic, sources, fixes.is_empty()).into() },
-        occurrence_count: Some(diagnostic.more).filter(|&more| more > 0),
-        locations: place.map(|place| location(place, label)).into_iter().collect(),
-        related_locations: diagnostic.notes.iter().filter_map(related).collect(),
-        fixes,
-    }
+    let fix = place.and_then(|place| fix(diagnostic, place));
+    let related =
+        |note: &'a Note| Some(location(MarkedSource::of(note.span?, sources)?, Some(message(note.message.as_str()))));
+    let related: Vec<Json<'_>> = diagnostic.notes.iter().filter_map(related).collect();
+    without_nulls([
+        ("ruleId", diagnostic.code.id.into()),
+        ("ruleIndex", rule_index.into()),
+        ("level", diagnostic.severity.name().into()),
+        ("message", message(full_message(diagnostic, sources, fix.is_none()))),
+        ("occurrenceCount", Some(diagnostic.more).filter(|&more| more > 0).into()),
+        ("locations", list(place.map(|place| location(place, label)))),
+        ("relatedLocations", (!related.is_empty()).then(|| list(related)).into()),
+        ("fixes", fix.map(|fix| list([fix])).into()),
+    ])
 }
 
 /// Returns the message of a diagnostic, followed by the notes and help texts for which SARIF has no field.
@@ -216,40 +101,38 @@ fn full_message(diagnostic: &Diagnostic, sources: &[Source], with_help: bool) ->
     text
 }
 
-fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Fix<'a>> {
+fn fix<'a>(diagnostic: &'a Diagnostic, place: MarkedSource<'a>) -> Option<Json<'a>> {
     let (replacement, mark) = (diagnostic.fix.as_deref()?, place.mark?);
-    let deleted_region = Region { snippet: None, ..region(place.source, mark) };
-    Some(Fix {
-        description: message(diagnostic.help.as_deref().unwrap_or("replace the marked text")),
-        artifact_changes: [ArtifactChange {
-            artifact_location: artifact(place.source),
-            replacements: [Replacement { deleted_region, inserted_content: message(replacement) }],
-        }],
-    })
+    let replacement = object([("deletedRegion", region(mark, None)), ("insertedContent", message(replacement))]);
+    let change = object([("artifactLocation", artifact(place.source)), ("replacements", list([replacement]))]);
+    let description = message(diagnostic.help.as_deref().unwrap_or("replace the marked text"));
+    Some(object([("description", description), ("artifactChanges", list([change]))]))
 }
 
-fn location<'a>(place: MarkedSource<'a>, message: Option<Message<'a>>) -> Location<'a> {
-    let region = place.mark.map(|mark| region(place.source, mark));
-    Location { physical_location: PhysicalLocation { artifact_location: artifact(place.source), region }, message }
+fn location<'a>(place: MarkedSource<'a>, message: Option<Json<'a>>) -> Json<'a> {
+    let region = place.mark.map(|mark| region(mark, Some(place.source)));
+    let physical = without_nulls([("artifactLocation", artifact(place.source)), ("region", region.into())]);
+    without_nulls([("physicalLocation", physical), ("message", message.into())])
 }
 
-fn region(source: &Source, mark: Mark) -> Region<'_> {
-    let marked = source.text().get(mark.start..mark.end).unwrap_or_default();
-    Region {
-        start_line: mark.from.line,
-        start_column: mark.from.column,
-        end_line: mark.to.line,
-        end_column: mark.to.column,
-        snippet: (marked.len() <= MAX_SNIPPET).then(|| message(marked)),
-    }
+/// Returns the position of a mark. The marked text in `source` is part of the position unless the text is too long.
+fn region<'a>(mark: Mark, source: Option<&'a Source>) -> Json<'a> {
+    let marked = source.map(|source| source.text().get(mark.start..mark.end).unwrap_or_default());
+    without_nulls([
+        ("startLine", mark.from.line.into()),
+        ("startColumn", mark.from.column.into()),
+        ("endLine", mark.to.line.into()),
+        ("endColumn", mark.to.column.into()),
+        ("snippet", marked.filter(|marked| marked.len() <= MAX_SNIPPET).map(message).into()),
+    ])
 }
 
-fn message(text: &str) -> Message<'_> {
-    Message { text: text.into() }
+fn message<'a>(text: impl Into<Json<'a>>) -> Json<'a> {
+    object([("text", text.into())])
 }
 
-fn artifact(source: &Source) -> ArtifactLocation {
-    ArtifactLocation { uri: uri(source.name(), cfg!(windows)) }
+fn artifact(source: &Source) -> Json<'_> {
+    object([("uri", uri(source.name(), cfg!(windows)).into())])
 }
 
 /// Converts a file name to a URI. `windows` selects the path syntax of Windows.
