@@ -4,7 +4,7 @@ use std::fmt;
 
 use lexibus_codegen::text::similar;
 
-use super::note::{Export, NoteKind, Notes, Subject};
+use super::note::Export;
 use super::xml::Xml;
 
 /// A fact that the format requires and that neither the source nor the options contain.
@@ -76,12 +76,9 @@ impl MissingFacts {
         })
     }
 
-    /// Returns the exported document, or a refusal if facts are missing. Adds notes on characters and attributes that XML does
-    /// not allow.
-    pub(super) fn finish(self, xml: Xml, mut notes: Notes) -> Result<Export, Refusal> {
-        notes.add_many(NoteKind::Control, xml.dropped, Subject::Device);
-        notes.add_many(NoteKind::Extension, xml.unnamed, Subject::Device);
-        self.check().map(|()| Export { text: xml.finish(), notes: notes.finish() })
+    /// Returns the exported document, or a refusal if facts are missing.
+    pub(super) fn finish(self, xml: Xml) -> Result<Export, Refusal> {
+        self.check().map(|()| xml.finish())
     }
 
     /// Returns a refusal if facts are missing.
@@ -216,7 +213,7 @@ mod tests {
         let mut missing = MissingFacts::new(&[("two", "The second.")]);
         assert_eq!(missing.require(Some(1u32), "one"), 1);
         assert_eq!(missing.require(None::<u32>, "two"), 0);
-        let refusal = missing.finish(Xml::new(), Notes::default()).expect_err("one is missing");
+        let refusal = missing.finish(Xml::new()).expect_err("one is missing");
         assert_eq!(
             refusal.to_string(),
             "the format requires facts that the description does not contain; set `two` (The second)"

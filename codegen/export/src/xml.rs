@@ -6,14 +6,16 @@ use std::fmt::Display;
 use compact_str::CompactString;
 use quick_xml::escape::escape;
 
+use super::note::{Export, NoteKind, Notes, Subject};
+
 /// An XML file that is being written. The caller closes each element; `finish` closes the elements that are still open.
 pub(super) struct Xml {
     text: String,
     open: Vec<Open>,
-    /// Number of characters that were removed because XML 1.0 does not allow them.
-    pub(super) dropped: usize,
+    /// Notes on facts that the file does not contain, or contains in a different form.
+    pub(super) notes: Notes,
     /// Number of omitted attributes. An attribute is omitted if its name is invalid or already used in the element.
-    pub(super) unnamed: usize,
+    unnamed: usize,
     /// Names of the attributes written so far in the last opened element.
     given: Vec<CompactString>,
 }
@@ -35,7 +37,7 @@ enum Content {
 impl Xml {
     pub(super) fn new() -> Self {
         let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into();
-        Xml { text, open: Vec::new(), dropped: 0, unnamed: 0, given: Vec::new() }
+        Xml { text, open: Vec::new(), notes: Notes::default(), unnamed: 0, given: Vec::new() }
     }
 
     /// Starts the element `name`.
@@ -186,18 +188,19 @@ impl Xml {
         };
         let count = text.chars().filter(|letter| is_forbidden(*letter)).count();
         if count > 0 {
-            self.dropped += count;
+            self.notes.add_many(NoteKind::Control, count, Subject::Device);
             text.retain(|letter| !is_forbidden(letter));
         }
         text
     }
 
-    /// Closes the elements that are still open, and returns the text of the file.
-    pub(super) fn finish(mut self) -> String {
+    /// Closes the elements that are still open, and returns the file with its notes.
+    pub(super) fn finish(mut self) -> Export {
         while !self.open.is_empty() {
             self.close();
         }
-        self.text
+        self.notes.add_many(NoteKind::Extension, self.unnamed, Subject::Device);
+        Export { text: self.text, notes: self.notes.finish() }
     }
 }
 
@@ -221,9 +224,10 @@ mod tests {
         xml.close();
         xml.leaf("D", "</D>\u{1}&\r");
         xml.leaf("E", "");
-        assert_eq!(xml.dropped, 1);
         let expected = "<A b=\"&quot;&lt;&amp;&#10;\">\n  <C/>\n  <D>&lt;/D&gt;&amp;&#13;</D>\n  <E/>\n</A>\n";
-        assert_eq!(xml.finish(), format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
+        let Export { text, notes } = xml.finish();
+        assert_eq!(text, format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
+        assert_eq!(notes.iter().map(|note| (note.kind, note.count)).collect::<Vec<_>>(), [(NoteKind::Control, 1)]);
     }
 
     #[test]
@@ -237,6 +241,6 @@ mod tests {
         xml.attribute("b", 2);
         assert_eq!(xml.unnamed, 6);
         let expected = "<A b=\"1\" x:c-1=\"1\" ß=\"1\">\n  <B b=\"2\"/>\n</A>\n";
-        assert_eq!(xml.finish(), format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
+        assert_eq!(xml.finish().text, format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
     }
 }

@@ -1,23 +1,14 @@
 //! Writes the distributed clocks.
 
+use super::extras;
 use super::text::hex;
-use crate::note::{NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks};
 
-/// Attributes of the Dc element that the IR stores unchanged.
-const ATTRIBUTES: [&str; 5] =
-    ["UnknownFRMW", "Unknown64Bit", "ExternalRefClock", "PotentialReferenceClock", "TimeLoopControlOnly"];
-
 /// Writes the Dc element.
-pub(super) fn write(xml: &mut Xml, notes: &mut Notes, clocks: &DistributedClocks) {
+pub(super) fn write(xml: &mut Xml, clocks: &DistributedClocks) {
     xml.open("Dc");
-    for (name, value) in &clocks.attributes {
-        match ATTRIBUTES.contains(&name.as_str()) {
-            true => xml.attribute(name, value),
-            false => notes.add(NoteKind::Extension, Subject::Named("Dc")),
-        }
-    }
+    extras::attributes(xml, "Dc", &clocks.attributes);
     clocks.modes.iter().for_each(|each| mode(xml, each));
     xml.close();
 }

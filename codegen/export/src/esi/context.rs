@@ -6,7 +6,6 @@ use compact_str::CompactString;
 use lexibus_codegen::etg::unit;
 use lexibus_codegen::ir::Catalog;
 
-use super::super::note::Notes;
 use super::super::options::MissingFacts;
 use super::options::TrackedOptions;
 use super::text::hex;
@@ -15,7 +14,6 @@ use super::text::hex;
 pub(super) struct Context<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: &'a TrackedOptions<'a>,
-    pub(super) notes: Notes,
     pub(super) missing: MissingFacts,
     /// ETG.2000 unit numbers, keyed by unit symbol.
     pub(super) units: HashMap<CompactString, Option<String>>,

@@ -22,10 +22,10 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
         xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
         xml.close();
     }
-    names(xml, "Name", &device.name, &device.names, &mut context.notes, subject);
-    documentation(xml, "Comment", device.documentation.as_deref(), &mut context.notes, subject);
+    names(xml, "Name", &device.name, &device.names, subject);
+    documentation(xml, "Comment", device.documentation.as_deref(), subject);
     extras::urls(xml, settings);
-    extras::info(xml, context, settings);
+    extras::info(xml, settings);
     let group = Some(settings.group.to_string()).filter(|group| !group.is_empty() || context.is_esi);
     let group = context.missing.require(context.options.group().or(group), "group");
     xml.leaf("GroupType", group);
@@ -38,21 +38,21 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
             pdos.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
         }
         for pdo in pdos {
-            pdo::write(xml, &mut context.notes, types, pdo, device.ethercat.is_some());
+            pdo::write(xml, types, pdo, device.ethercat.is_some());
         }
     });
     mailbox::write(xml, context, settings.mailbox.as_deref());
     if let Some(clocks) = &settings.clocks {
-        clocks::write(xml, &mut context.notes, clocks);
+        clocks::write(xml, clocks);
     }
-    slots::write(xml, context, device, settings);
-    eeprom::registers(xml, &mut context.notes, settings);
+    slots::write(xml, device, settings);
+    eeprom::registers(xml, settings);
     eeprom::write(xml, context, settings);
     if let Some((element, file)) = &settings.picture {
         xml.leaf(element.to_string(), file);
     }
     xml.close();
-    losses::of_device(context, device);
+    losses::of_device(context, device, &mut xml.notes);
 }
 
 /// Writes the Profile elements with the dictionary and the diagnosis messages, or only the dictionary if the file
@@ -63,15 +63,15 @@ pub(super) fn dictionary(
     device: &Device,
     after: impl FnOnce(&mut Xml, &mut Context<'_>, &Types<'_>),
 ) {
-    let of_registers = objects::of_registers(device, &mut context.notes);
-    let objects = objects::of_device(device, &of_registers, &mut context.notes);
-    let mut types = Types::new(&device.types, context.is_esi, &mut context.notes);
+    let of_registers = objects::of_registers(device, &mut xml.notes);
+    let objects = objects::of_device(device, &of_registers, &mut xml.notes);
+    let mut types = Types::new(&device.types, context.is_esi, &mut xml.notes);
     if device.dictionary_only {
         dictionary::write(xml, context, &mut types, &objects);
     } else {
         profiles(xml, context, device, |xml, context| {
             dictionary::write(xml, context, &mut types, &objects);
-            diagnosis::write(xml, &mut context.notes, &device.code_tables);
+            diagnosis::write(xml, &device.code_tables);
         });
     }
     after(xml, context, &types);
@@ -102,7 +102,7 @@ fn physics(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings
     let ports = settings.physics.to_string();
     let ports = Some(ports).filter(|ports| context.is_esi || !ports.is_empty());
     let ports = context.missing.require(context.options.physics().or(ports), "physics");
-    context.notes.add_many(NoteKind::Spelling, !is_known(&ports), Subject::Named("Physics"));
+    xml.notes.add_many(NoteKind::Spelling, !is_known(&ports), Subject::Named("Physics"));
     xml.attribute("Physics", if is_known(&ports) { &ports } else { "" });
 }
 

@@ -1,7 +1,7 @@
 //! Writes diagnosis messages.
 
 use super::text::{documentation, hex, names};
-use crate::note::{Notes, Subject};
+use crate::note::Subject;
 use crate::xml::Xml;
 use lexibus_codegen::ir::{CodeRow, CodeTable, Value};
 
@@ -14,7 +14,7 @@ pub(super) fn is_list(table: &CodeTable) -> bool {
 }
 
 /// Writes the DiagMessages element unless it is empty.
-pub(super) fn write(xml: &mut Xml, notes: &mut Notes, tables: &[CodeTable]) {
+pub(super) fn write(xml: &mut Xml, tables: &[CodeTable]) {
     let rows = |name: &'static str| tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows);
     if rows("DiagMessages").next().is_none() {
         return;
@@ -24,25 +24,25 @@ pub(super) fn write(xml: &mut Xml, notes: &mut Notes, tables: &[CodeTable]) {
         for row in rows(name) {
             let subject = Subject::Named(&row.name);
             xml.open(*name);
-            names(xml, "Text", &row.name, &row.names, notes, subject);
+            names(xml, "Text", &row.name, &row.names, subject);
             xml.leaf("Enum", row.code);
-            documentation(xml, "Comment", row.documentation.as_deref(), notes, subject);
+            documentation(xml, "Comment", row.documentation.as_deref(), subject);
             xml.close();
         }
     }
-    rows("DiagMessages").for_each(|row| message(xml, notes, row));
+    rows("DiagMessages").for_each(|row| message(xml, row));
     xml.close();
 }
 
-fn message(xml: &mut Xml, notes: &mut Notes, row: &CodeRow) {
+fn message(xml: &mut Xml, row: &CodeRow) {
     let subject = Subject::Named(&row.name);
     xml.open("DiagMessage");
     match u32::try_from(row.code) {
         Ok(code) => xml.leaf("TextId", hex(code, 4)),
         Err(_) => xml.leaf("TextId", row.code),
     }
-    names(xml, "MessageText", &row.name, &row.names, notes, subject);
-    documentation(xml, "Description", row.documentation.as_deref(), notes, subject);
+    names(xml, "MessageText", &row.name, &row.names, subject);
+    documentation(xml, "Description", row.documentation.as_deref(), subject);
     let text = |value: &Value| match value {
         Value::Text(text) if !text.is_empty() => Some(text.clone()),
         _ => None,

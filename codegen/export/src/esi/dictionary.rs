@@ -20,12 +20,12 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
     let planned: Vec<Planned<'_>> = groups
         .iter()
         .filter_map(|group| {
-            let items = entries(group, &mut context.notes);
+            let items = entries(group, &mut xml.notes);
             if items.is_empty() {
-                context.notes.add(NoteKind::EmptyObject, Subject::object(group));
+                xml.notes.add(NoteKind::EmptyObject, Subject::object(group));
                 return None;
             }
-            let plan = record::plan(types, group, &items, &mut context.notes);
+            let plan = record::plan(types, group, &items, &mut xml.notes);
             Some((*group, items, plan))
         })
         .collect();
@@ -33,7 +33,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
         return;
     }
     xml.open("Dictionary");
-    data_types(xml, types, &mut context.notes);
+    data_types(xml, types);
     xml.open("Objects");
     for (group, items, plan) in &planned {
         object::write(xml, context, types, group, items, plan);
@@ -57,19 +57,19 @@ fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
     items
 }
 
-fn data_types(xml: &mut Xml, types: &mut Types<'_>, notes: &mut Notes) {
+fn data_types(xml: &mut Xml, types: &mut Types<'_>) {
     xml.open("DataTypes");
     for (at, def) in (0u32..).zip(types.defs) {
-        data_type(xml, types, at, def, notes);
+        data_type(xml, types, at, def);
     }
     // An added type refers only to basic types, declared types, and types that were added before it.
     for added in &types.added {
-        added_type(xml, added, notes);
+        added_type(xml, added);
     }
     xml.close();
 }
 
-fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
+fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef) {
     let (name, subject) = (types.name_of(at), Subject::Named(&def.name));
     let bits = types.bits(Type::Named(lexibus_codegen::ir::TypeId(at))).unwrap_or(0);
     let base = match &def.shape {
@@ -78,21 +78,21 @@ fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
         Shape::Enumeration { base, .. } => Some(*base),
         Shape::BitField { .. } if matches!(type_name::basic(&name), Some((Basic::Bits(_), _))) => None,
         Shape::BitField { base, .. } => {
-            notes.add(NoteKind::BitField, subject);
+            xml.notes.add(NoteKind::BitField, subject);
             Some(*base)
         }
         Shape::Scaled { base, .. } => {
-            notes.add(NoteKind::Quantity, subject);
+            xml.notes.add(NoteKind::Quantity, subject);
             Some(*base)
         }
         Shape::Record(_) => None,
     };
-    let base = base.map(|ty| types.reference(ty, notes, subject).0);
+    let base = base.map(|ty| types.reference(ty, &mut xml.notes, subject).0);
     xml.open("DataType");
     xml.optional_leaf("Index", def.code.map(|code| hex(code, 4)));
     xml.leaf("Name", &name);
     xml.optional_leaf("BaseType", base.filter(|base| *base != name));
-    documentation(xml, "Comment", def.documentation.as_deref(), notes, subject);
+    documentation(xml, "Comment", def.documentation.as_deref(), subject);
     xml.leaf("BitSize", bits);
     match &def.shape {
         Shape::Array { dimensions, .. } => {
@@ -100,8 +100,8 @@ fn data_type(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
                 array_info(xml, i64::from(*lower), *count);
             }
         }
-        Shape::Record(_) => sub_items(xml, types, at, def, notes),
-        Shape::Enumeration { values, .. } => values.iter().for_each(|value| enum_info(xml, "EnumInfo", value, notes)),
+        Shape::Record(_) => sub_items(xml, types, at, def),
+        Shape::Enumeration { values, .. } => values.iter().for_each(|value| enum_info(xml, "EnumInfo", value)),
         _ => {}
     }
     xml.close();
@@ -112,47 +112,47 @@ fn array_info(xml: &mut Xml, lower: i64, count: u32) {
 }
 
 /// Writes a named value of an enumeration.
-pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue, notes: &mut Notes) {
+pub(super) fn enum_info(xml: &mut Xml, element: &'static str, value: &EnumValue) {
     let subject = Subject::Named(&value.name);
     xml.open(element);
-    names(xml, "Text", &value.name, &value.names, notes, subject);
+    names(xml, "Text", &value.name, &value.names, subject);
     xml.leaf("Enum", value.value);
-    documentation(xml, "Comment", value.documentation.as_deref(), notes, subject);
+    documentation(xml, "Comment", value.documentation.as_deref(), subject);
     xml.close();
-    notes.add_many(NoteKind::ValueRange, value.last.is_some(), subject);
+    xml.notes.add_many(NoteKind::ValueRange, value.last.is_some(), subject);
     let is_conditional = value.when.is_some() || value.zone.is_some();
-    notes.add_many(NoteKind::Behavior, is_conditional, subject);
-    notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
+    xml.notes.add_many(NoteKind::Behavior, is_conditional, subject);
+    xml.notes.add_many(NoteKind::Availability, value.availability.is_some(), subject);
 }
 
 /// Writes the SubItem elements of a record type that the device declares.
-fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes: &mut Notes) {
+fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef) {
     let unique = record::field_names(types, at);
     let mut facts = types.uses.get(&at).cloned().unwrap_or_default().into_iter();
     for (field, name) in types.fields(at).iter().zip(unique) {
-        notes.add_many(NoteKind::Renamed, name != field.name, Subject::Named(&def.name));
-        let (ty, _) = types.reference(field.ty, notes, Subject::Named(&def.name));
+        xml.notes.add_many(NoteKind::Renamed, name != field.name, Subject::Named(&def.name));
+        let (ty, _) = types.reference(field.ty, &mut xml.notes, Subject::Named(&def.name));
         let (sub_index, bits, offset) = (field.sub_index, field.bits, field.bit_offset);
-        sub_item(xml, &SubItem { name, sub_index, ty, bits, offset, facts: facts.next() }, notes);
+        sub_item(xml, &SubItem { name, sub_index, ty, bits, offset, facts: facts.next() });
     }
 }
 
-fn sub_item(xml: &mut Xml, item: &SubItem, notes: &mut Notes) {
+fn sub_item(xml: &mut Xml, item: &SubItem) {
     let subject = Subject::Named(&item.name);
     xml.open("SubItem");
     xml.optional_leaf("SubIdx", item.sub_index);
     xml.leaf("Name", &item.name);
     for local in item.facts.iter().flat_map(|facts| facts.names.iter()) {
-        name(xml, "DisplayName", local, notes, subject);
+        name(xml, "DisplayName", local, subject);
     }
     xml.leaf("Type", &item.ty);
     let text = item.facts.as_ref().and_then(|facts| facts.documentation.as_deref());
-    documentation(xml, "Comment", text, notes, subject);
+    documentation(xml, "Comment", text, subject);
     xml.leaf("BitSize", item.bits);
     xml.leaf("BitOffs", item.offset);
     if let Some(facts) = &item.facts {
         xml.open("Flags");
-        flags(xml, facts, None, notes, subject);
+        flags(xml, facts, None, subject);
         xml.leaf("Backup", u8::from(facts.backup));
         xml.leaf("Setting", u8::from(facts.setting));
         xml.close();
@@ -161,15 +161,9 @@ fn sub_item(xml: &mut Xml, item: &SubItem, notes: &mut Notes) {
 }
 
 /// Writes the access rights, category, PDO mapping and safety mapping of an object or sub-item.
-pub(super) fn flags(
-    xml: &mut Xml,
-    facts: &FieldFacts,
-    category: Option<&'static str>,
-    notes: &mut Notes,
-    subject: Subject<'_>,
-) {
-    let read = record::check_states(&facts.read_states, notes, subject);
-    let write = record::check_states(&facts.write_states, notes, subject);
+pub(super) fn flags(xml: &mut Xml, facts: &FieldFacts, category: Option<&'static str>, subject: Subject<'_>) {
+    let read = record::check_states(&facts.read_states, &mut xml.notes, subject);
+    let write = record::check_states(&facts.write_states, &mut xml.notes, subject);
     xml.open("Access");
     xml.optional("ReadRestrictions", read);
     xml.optional("WriteRestrictions", write);
@@ -179,17 +173,17 @@ pub(super) fn flags(
         Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "rw",
     });
     xml.close();
-    notes.add_many(NoteKind::Constant, facts.access == Access::Constant, subject);
+    xml.notes.add_many(NoteKind::Constant, facts.access == Access::Constant, subject);
     xml.optional_leaf("Category", category);
     let directions = [("R", facts.mappable.rpdo), ("T", facts.mappable.tpdo)];
     let directions: String = directions.into_iter().filter(|(_, is_set)| *is_set).map(|(letter, _)| letter).collect();
     xml.text_leaf("PdoMapping", &directions);
     let known = facts.safety.as_deref().filter(|safety| matches!(*safety, "si" | "so" | "sio" | "sp"));
     xml.optional_leaf("SafetyMapping", known);
-    notes.add_many(NoteKind::Spelling, facts.safety.is_some() && known.is_none(), subject);
+    xml.notes.add_many(NoteKind::Spelling, facts.safety.is_some() && known.is_none(), subject);
 }
 
-fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
+fn added_type(xml: &mut Xml, added: &AddedType) {
     xml.open("DataType");
     xml.leaf("Name", &added.name);
     xml.optional_leaf("BaseType", added.array.as_ref().map(|(element, _)| element));
@@ -197,7 +191,7 @@ fn added_type(xml: &mut Xml, added: &AddedType, notes: &mut Notes) {
     if let Some((_, count)) = added.array {
         array_info(xml, 1, count);
     }
-    added.fields.iter().for_each(|field| sub_item(xml, field, notes));
+    added.fields.iter().for_each(|field| sub_item(xml, field));
     xml.close();
 }
 

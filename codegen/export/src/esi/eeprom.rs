@@ -2,7 +2,7 @@
 
 use super::text::hex;
 use super::Context;
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 use crate::types::hex_digits;
 use crate::xml::Xml;
 use lexibus_codegen::ir::EtherCatSettings;
@@ -11,7 +11,7 @@ use lexibus_codegen::ir::EtherCatSettings;
 const REGISTERS: [u16; 4] = [0x0108, 0x0400, 0x0410, 0x0420];
 
 /// Writes the ESC element with the register values of the slave controller. Writes nothing if the source has none.
-pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSettings) {
+pub(super) fn registers(xml: &mut Xml, settings: &EtherCatSettings) {
     if settings.registers.is_empty() {
         return;
     }
@@ -24,7 +24,7 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
         xml.leaf(format!("Reg{address:04X}"), hex(*value, 1));
     }
     xml.close();
-    notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
+    xml.notes.add_many(NoteKind::Setting, settings.registers.len() - known.len(), Subject::Named("ESC"));
 }
 
 /// Writes the Eeprom element if the source describes the EEPROM. The element contains either the complete data, or the
@@ -32,12 +32,12 @@ pub(super) fn registers(xml: &mut Xml, notes: &mut Notes, settings: &EtherCatSet
 /// size is known, writes no element and adds a note.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
     let Some(eeprom) = settings.eeprom.as_deref() else { return };
-    let (notes, subject) = (&mut context.notes, Subject::Named("Eeprom"));
+    let subject = Subject::Named("Eeprom");
     // The complete data imply the size.
     let given = if eeprom.data.is_empty() { context.options.eeprom_size() } else { None };
     let size = given.or(eeprom.byte_size);
     if eeprom.data.is_empty() && size.is_none() {
-        return notes.add(NoteKind::Incomplete, subject);
+        return xml.notes.add(NoteKind::Incomplete, subject);
     }
     xml.open("Eeprom");
     xml.flag("AssignToPdi", eeprom.assign_to_pdi, "true");
@@ -56,7 +56,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCa
                 + usize::from(!eeprom.config_data.is_empty())
                 + usize::from(!eeprom.boot_strap.is_empty())
                 + eeprom.categories.len();
-            notes.add_many(NoteKind::Setting, others, subject);
+            xml.notes.add_many(NoteKind::Setting, others, subject);
         }
     }
     xml.close();

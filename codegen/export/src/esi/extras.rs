@@ -1,16 +1,25 @@
 //! Writes timeouts and the facts that only tools use.
 
-use super::text::{self, hex};
-use super::Context;
+use super::text::hex;
 use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::language;
-use lexibus_codegen::ir::{Catalog, EtherCatSettings};
+use lexibus_codegen::ir::{Catalog, CompactString, EtherCatSettings};
 
 /// Timeouts of the state machine and of the mailbox. If the file contains one timeout of a list, the schema requires
 /// all timeouts of this list.
 const STATE_TIMES: [&str; 4] = ["PreopTimeout", "SafeopOpTimeout", "BackToInitTimeout", "BackToSafeopTimeout"];
 const MAILBOX_TIMES: [&str; 2] = ["RequestTimeout", "ResponseTimeout"];
+
+/// Attributes of the Dc element and of mailbox protocols that the IR stores unchanged.
+const ATTRIBUTES: [(&str, &[&str]); 6] = [
+    ("AoE", &["AdsRouter", "GenerateOwnNetId", "InitializeOwnNetId"]),
+    ("EoE", &["IP", "MAC", "TimeStamp"]),
+    ("CoE", &["EdsFile", "DS402Channels", "SdoUploadWithMaxLength", "TimeDistribution"]),
+    ("Module/CoE", &["EdsFile", "ModuleOD"]),
+    ("Dc", &["UnknownFRMW", "Unknown64Bit", "ExternalRefClock", "PotentialReferenceClock", "TimeLoopControlOnly"]),
+    ("SoE", &["ChannelCount", "DriveFollowsBit3Support"]),
+];
 
 /// Writes the attributes of Type except the identity.
 pub(super) fn of_type(xml: &mut Xml, settings: &EtherCatSettings) {
@@ -29,6 +38,17 @@ pub(super) fn of_type(xml: &mut Xml, settings: &EtherCatSettings) {
     attributes.into_iter().for_each(|(name, text)| xml.text_attribute(name, text));
 }
 
+/// Writes the attributes that the schema defines for an element. Adds a note for each other attribute.
+pub(super) fn attributes(xml: &mut Xml, element: &'static str, list: &[(CompactString, CompactString)]) {
+    let known = ATTRIBUTES.iter().find(|(known, _)| *known == element).map_or(&[] as &[&str], |(_, names)| names);
+    for (name, value) in list {
+        match known.contains(&name.as_str()) {
+            true => xml.attribute(name, value),
+            false => xml.notes.add(NoteKind::Extension, Subject::Named(element)),
+        }
+    }
+}
+
 /// Writes the URLs of a device. English needs no language number.
 pub(super) fn urls(xml: &mut Xml, settings: &EtherCatSettings) {
     for url in &settings.urls {
@@ -40,9 +60,9 @@ pub(super) fn urls(xml: &mut Xml, settings: &EtherCatSettings) {
 }
 
 /// Writes the Info element unless it is empty.
-pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCatSettings) {
-    let states = times(context, settings, &STATE_TIMES);
-    let mailbox = times(context, settings, &MAILBOX_TIMES);
+pub(super) fn info(xml: &mut Xml, settings: &EtherCatSettings) {
+    let states = times(xml, settings, &STATE_TIMES);
+    let mailbox = times(xml, settings, &MAILBOX_TIMES);
     let has_facts = settings.ebus_current.is_some()
         || settings.controller.is_some()
         || settings.station_alias.is_some()
@@ -59,7 +79,9 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCat
     if !states.is_empty() || settings.safe_op_without_sync {
         xml.open("StateMachine");
         timeouts(xml, states);
-        behavior(xml, settings);
+        if settings.safe_op_without_sync {
+            xml.empty("Behavior", &[("StartToSafeopNoSync", &true)]);
+        }
         xml.close();
     }
     if !mailbox.is_empty() {
@@ -81,24 +103,12 @@ pub(super) fn info(xml: &mut Xml, context: &mut Context<'_>, settings: &EtherCat
 }
 
 fn timeouts(xml: &mut Xml, times: Vec<(&'static str, u32)>) {
-    if !times.is_empty() {
-        xml.open("Timeout");
-        times.into_iter().for_each(|(name, limit)| xml.leaf(name, limit));
-        xml.close();
-    }
-}
-
-fn behavior(xml: &mut Xml, settings: &EtherCatSettings) {
-    if settings.safe_op_without_sync {
-        xml.open("Behavior");
-        xml.attribute("StartToSafeopNoSync", "true");
-        xml.close();
-    }
+    xml.list("Timeout", times, |xml, (name, limit)| xml.leaf(name, limit));
 }
 
 /// Returns the timeouts with these names if all of them exist. Otherwise, adds a note for those that exist, and returns
 /// an empty list.
-fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
+fn times(xml: &mut Xml, settings: &EtherCatSettings, names: &[&'static str]) -> Vec<(&'static str, u32)> {
     let limit = |name: &&'static str| {
         let found = settings.timeouts.iter().find(|(known, _)| known == *name);
         found.map(|(_, limit)| (*name, *limit))
@@ -107,29 +117,22 @@ fn times(context: &mut Context<'_>, settings: &EtherCatSettings, names: &[&'stat
     if found.len() == names.len() {
         return found;
     }
-    context.notes.add_many(NoteKind::Incomplete, found.len(), Subject::Named("Timeout"));
+    xml.notes.add_many(NoteKind::Incomplete, found.len(), Subject::Named("Timeout"));
     Vec::new()
 }
 
-/// Writes the vendor's name in the additional languages.
-pub(super) fn vendor_names(xml: &mut Xml, context: &mut Context<'_>) {
-    for name in &context.catalog.vendor_names {
-        text::name(xml, "Name", name, &mut context.notes, Subject::Named("Vendor"));
-    }
-}
-
 /// Writes the vendor's URLs. Adds a note for the extensions and descriptions of the catalog.
-pub(super) fn of_vendor(xml: &mut Xml, context: &mut Context<'_>) {
-    context.catalog.vendor_urls.iter().for_each(|url| xml.leaf("URL", url));
-    let lost = context.catalog.extensions.len() + context.catalog.descriptions.len();
-    context.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
+pub(super) fn of_vendor(xml: &mut Xml, catalog: &Catalog) {
+    catalog.vendor_urls.iter().for_each(|url| xml.leaf("URL", url));
+    let lost = catalog.extensions.len() + catalog.descriptions.len();
+    xml.notes.add_many(NoteKind::Extension, lost, Subject::Named("Vendor"));
 }
 
 /// Writes the version of a file that contains only diagnosis messages. Adds a note for the extensions, and for the names and URLs of
 /// the vendor.
-pub(super) fn diagnosis_version(xml: &mut Xml, context: &mut Context<'_>) {
-    let Catalog { format_version, extensions, vendor_names, vendor_urls, .. } = context.catalog;
+pub(super) fn diagnosis_version(xml: &mut Xml, catalog: &Catalog) {
+    let Catalog { format_version, extensions, vendor_names, vendor_urls, .. } = catalog;
     xml.text_attribute("Version", format_version);
     let lost = extensions.len() + vendor_names.len() + vendor_urls.len();
-    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
+    xml.notes.add_many(NoteKind::Extension, lost, Subject::Device);
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use lexibus_codegen::ir::{Catalog, Device, Format, Identity};
 
-use super::super::note::{Notes, Subject};
+use super::super::note::Subject;
 use super::super::options::MissingFacts;
 use super::super::xml::Xml;
 use super::context::Context;
@@ -35,7 +35,6 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let mut context = Context {
         catalog,
         options,
-        notes: Notes::default(),
         missing: MissingFacts::new(Options::KEYS),
         units: HashMap::new(),
         is_esi: is_esi(catalog),
@@ -43,12 +42,11 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let mut xml = Xml::new();
     match devices.as_slice() {
         [device] if device.dictionary_only => dictionary_only(&mut xml, &mut context, device),
-        [] if is_messages => messages_only(&mut xml, &mut context),
+        [] if is_messages => messages_only(&mut xml, catalog),
         devices => info(&mut xml, &mut context, devices),
     }
-    let Context { mut notes, missing, .. } = context;
-    options.note_unused(&mut notes);
-    missing.finish(xml, notes)
+    options.note_unused(&mut xml.notes);
+    context.missing.finish(xml)
 }
 
 /// Returns whether an ESI can describe the device.
@@ -67,14 +65,14 @@ fn dictionary_only(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.text_attribute("Version", &device.header.format_version);
     device::dictionary(xml, context, device, |_, _, _| {});
     xml.close();
-    losses::of_device(context, device);
+    losses::of_device(context, device, &mut xml.notes);
 }
 
 /// Writes a file that contains only diagnosis messages.
-fn messages_only(xml: &mut Xml, context: &mut Context<'_>) {
+fn messages_only(xml: &mut Xml, catalog: &Catalog) {
     xml.open("EtherCATDiag");
-    extras::diagnosis_version(xml, context);
-    diagnosis::write(xml, &mut context.notes, &context.catalog.code_tables);
+    extras::diagnosis_version(xml, catalog);
+    diagnosis::write(xml, &catalog.code_tables);
     xml.close();
 }
 
@@ -97,7 +95,7 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
     for device in devices {
         match device.identity.vendor_id == identity.vendor_id {
             true => device::write(xml, context, device),
-            false => context.notes.add(NoteKind::OtherVendor, Subject::Named(&device.name)),
+            false => xml.notes.add(NoteKind::OtherVendor, Subject::Named(&device.name)),
         }
     }
     xml.close();
@@ -106,14 +104,14 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
         for module in &context.catalog.modules {
             match module.identity.vendor_id == identity.vendor_id {
                 true => module::write(xml, context, module),
-                false => context.notes.add(NoteKind::OtherVendor, Subject::Named(&module.name)),
+                false => xml.notes.add(NoteKind::OtherVendor, Subject::Named(&module.name)),
             }
         }
         xml.close();
     } else {
-        context.notes.add_many(NoteKind::Module, context.catalog.modules.len(), Subject::Device);
+        xml.notes.add_many(NoteKind::Module, context.catalog.modules.len(), Subject::Device);
     }
-    losses::of_catalog(context);
+    losses::of_catalog(context, &mut xml.notes);
 }
 
 fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, identity: &Identity) {
@@ -122,7 +120,7 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     let version = header.map(|header| &header.file_version).filter(|version| context.is_esi && !version.is_empty());
     match version {
         Some(version) if version.parse::<i32>().is_ok() => xml.attribute("FileVersion", version),
-        Some(_) => context.notes.add(NoteKind::FileInfo, Subject::Device),
+        Some(_) => xml.notes.add(NoteKind::FileInfo, Subject::Device),
         None => {}
     }
     let id = context.missing.require(context.options.vendor_id().or(identity.vendor_id), "vendor-id");
@@ -130,11 +128,13 @@ fn vendor(xml: &mut Xml, context: &mut Context<'_>, device: Option<&&Device>, id
     let name = Some(identity.vendor_name.to_string()).filter(|name| !name.is_empty() || context.is_esi);
     let name = context.missing.require(context.options.vendor_name().or(name), "vendor-name");
     xml.leaf("Name", name);
-    extras::vendor_names(xml, context);
+    for name in &context.catalog.vendor_names {
+        text::name(xml, "Name", name, Subject::Named("Vendor"));
+    }
     if context.is_esi {
         header.into_iter().flat_map(|header| &header.comments).for_each(|comment| xml.leaf("Comment", comment));
     }
-    extras::of_vendor(xml, context);
+    extras::of_vendor(xml, context.catalog);
     xml.close();
 }
 
@@ -147,9 +147,9 @@ fn groups(xml: &mut Xml, context: &mut Context<'_>, devices: &[&Device]) {
         let subject = Subject::Named(&family.name);
         xml.open("Group");
         xml.leaf("Type", &family.id);
-        names(xml, "Name", &family.name, &family.names, &mut context.notes, subject);
+        names(xml, "Name", &family.name, &family.names, subject);
         for local in &family.descriptions {
-            text::name(xml, "Comment", local, &mut context.notes, subject);
+            text::name(xml, "Comment", local, subject);
         }
         xml.close();
     }

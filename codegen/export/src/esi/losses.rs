@@ -1,12 +1,12 @@
 //! Notes about facts that ETG.2000 cannot express.
 
 use super::{diagnosis, Context};
-use crate::note::{self, NoteKind, Subject};
+use crate::note::{self, NoteKind, Notes, Subject};
 use lexibus_codegen::ir::{Device, Module};
 
 /// Adds notes for facts of the catalog that ETG.2000 cannot express, except those of devices and modules.
-pub(super) fn of_catalog(context: &mut Context<'_>) {
-    let (catalog, notes) = (context.catalog, &mut context.notes);
+pub(super) fn of_catalog(context: &Context<'_>, notes: &mut Notes) {
+    let catalog = context.catalog;
     let mut parts = catalog.submodules.len() + catalog.unit_diagnoses.len() + catalog.code_tables.len();
     parts += catalog.unused_texts.len() + usize::from(catalog.profile_header.is_some());
     if !context.is_esi {
@@ -16,8 +16,8 @@ pub(super) fn of_catalog(context: &mut Context<'_>) {
 }
 
 /// Adds notes for facts of a device that ETG.2000 cannot express.
-pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
-    let (notes, subject) = (&mut context.notes, Subject::Named(&device.name));
+pub(super) fn of_device(context: &Context<'_>, device: &Device, notes: &mut Notes) {
+    let subject = Subject::Named(&device.name);
     let other_buses = usize::from(device.canopen.is_some() && device.ethercat.is_none())
         + usize::from(device.profinet.is_some())
         + device.modbus.len();
@@ -40,8 +40,8 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
 }
 
 /// Adds notes for facts of a module that ETG.2000 cannot express.
-pub(super) fn of_module(context: &mut Context<'_>, module: &Module) {
-    let (notes, subject) = (&mut context.notes, Subject::Named(&module.name));
+pub(super) fn of_module(module: &Module, notes: &mut Notes) {
+    let subject = Subject::Named(&module.name);
     notes.add_many(NoteKind::Documentation, module.documentation.is_some(), subject);
     notes.add_many(NoteKind::Module, module.submodules.len() + module.fixed_objects.len(), subject);
 }

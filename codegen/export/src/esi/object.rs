@@ -7,7 +7,7 @@ use super::record::{self, FieldFacts, Plan};
 use super::text::{documentation, hex, names};
 use super::types::Types;
 use super::{value, Context};
-use crate::note::{self, NoteKind, Subject};
+use crate::note::{self, NoteKind, Notes, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Category, Group, GroupKind, Item, Storage, ToolFlags};
 
@@ -24,29 +24,29 @@ pub(super) fn write(
     let single = items.first().map(|(_, item)| *item).filter(|_| plan.names.is_none());
     xml.open("Object");
     index(xml, group);
-    names(xml, "Name", &group.name, &group.names, &mut context.notes, subject);
+    names(xml, "Name", &group.name, &group.names, subject);
     let text = group.documentation.as_deref().or_else(|| single.and_then(|item| item.documentation.as_deref()));
-    documentation(xml, "Comment", text, &mut context.notes, subject);
+    documentation(xml, "Comment", text, subject);
     xml.leaf("Type", &plan.ty);
     xml.leaf("BitSize", plan.bits);
     let both = group.documentation.is_some() && single.is_some_and(|item| item.documentation.is_some());
-    context.notes.add_many(NoteKind::Documentation, both, subject);
+    xml.notes.add_many(NoteKind::Documentation, both, subject);
     match (single, &plan.names) {
         (Some(item), _) => {
             let has_other_name = item.name != group.name;
-            context.notes.add_many(NoteKind::Name, has_other_name, subject);
+            xml.notes.add_many(NoteKind::Name, has_other_name, subject);
             xml.open("Info");
-            info(xml, context, types, item);
-            display_name(xml, context, group, item);
+            info(xml, types, item);
+            display_name(xml, group, item);
             unit(xml, context, item);
             xml.close();
         }
         (None, names) => sub_items(xml, context, types, items, names.as_deref().unwrap_or_default()),
     }
-    object_flags(xml, context, group, single);
+    object_flags(xml, group, single);
     properties(xml, group);
     xml.close();
-    losses(context, group, items);
+    losses(group, items, &mut xml.notes);
 }
 
 fn index(xml: &mut Xml, group: &Group) {
@@ -82,7 +82,7 @@ fn sub_items(
         // An entry without a name gets the name of its SubItem in the type.
         xml.leaf("Name", if item.name.is_empty() { name } else { &item.name });
         xml.open("Info");
-        info(xml, context, types, item);
+        info(xml, types, item);
         xml.optional_leaf("DisplayName", record::display_name(item));
         unit(xml, context, item);
         xml.close();
@@ -92,22 +92,22 @@ fn sub_items(
 }
 
 /// Writes the default value and the limits of an item.
-fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
+fn info(xml: &mut Xml, types: &Types<'_>, item: &Item) {
     let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
-    context.notes.add_all(notes, Subject::item(item));
-    context.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
+    xml.notes.add_all(notes, Subject::item(item));
+    xml.notes.add_many(NoteKind::AllowedValues, !item.limits.allowed.is_empty(), Subject::item(item));
 }
 
 /// Writes the display name of an object with a single value, unless it repeats the translations of the object's name.
 /// ETG.2000 allows one display name per object.
-fn display_name(xml: &mut Xml, context: &mut Context<'_>, group: &Group, item: &Item) {
+fn display_name(xml: &mut Xml, group: &Group, item: &Item) {
     if item.names == group.names {
         return;
     }
     match record::display_name(item) {
         Some(name) => xml.leaf("DisplayName", name),
-        None => context.notes.add_many(NoteKind::Language, item.names.len(), Subject::item(item)),
+        None => xml.notes.add_many(NoteKind::Language, item.names.len(), Subject::item(item)),
     }
 }
 
@@ -121,10 +121,10 @@ fn unit(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
         || !quantity.sentinels.is_empty()
         || quantity.step.is_some()
         || !quantity.units.is_empty();
-    context.notes.add_many(NoteKind::Quantity, number.is_none() || has_more_facts, Subject::item(item));
+    xml.notes.add_many(NoteKind::Quantity, number.is_none() || has_more_facts, Subject::item(item));
 }
 
-fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single: Option<&Item>) {
+fn object_flags(xml: &mut Xml, group: &Group, single: Option<&Item>) {
     let category = match group.kind {
         GroupKind::Object { category, .. } => category,
         _ => None,
@@ -137,7 +137,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     };
     let subject = Subject::object(group);
     let is_lost = category == Some(Category::Manufacturer);
-    context.notes.add_many(NoteKind::Category, is_lost, subject);
+    xml.notes.add_many(NoteKind::Category, is_lost, subject);
     let none = ToolFlags::default();
     let tool = group.tool_flags.as_deref().unwrap_or(&none);
     let others = [("Attribute", &tool.attribute), ("Transition", &tool.transition), ("SdoAccess", &tool.sdo_access)];
@@ -147,7 +147,7 @@ fn object_flags(xml: &mut Xml, context: &mut Context<'_>, group: &Group, single:
     xml.open("Flags");
     let facts = single.map(FieldFacts::of);
     match &facts {
-        Some(facts) => flags(xml, facts, letter, &mut context.notes, subject),
+        Some(facts) => flags(xml, facts, letter, subject),
         None => {
             xml.optional_leaf("Category", letter);
         }
@@ -168,8 +168,7 @@ fn properties(xml: &mut Xml, group: &Group) {
 }
 
 /// Adds notes for facts of an object and its entries that ETG.2000 cannot express.
-fn losses(context: &mut Context<'_>, group: &Group, items: &[(u8, &Item)]) {
-    let notes = &mut context.notes;
+fn losses(group: &Group, items: &[(u8, &Item)], notes: &mut Notes) {
     notes.add_many(NoteKind::Doubt, group.doubts.len(), Subject::object(group));
     notes.add_many(NoteKind::Setting, group.links.len(), Subject::object(group));
     for (_, item) in items {

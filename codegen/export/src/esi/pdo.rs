@@ -3,26 +3,26 @@
 use super::dictionary::entry_type;
 use super::text::{hex, names};
 use super::types::Types;
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Direction, Pdo, PdoEntry, Type};
 
 /// Writes a PDO. `is_slave` states whether the device is an EtherCAT slave. The CAN communication parameters of an
 /// EtherCAT slave are left out with a note.
-pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
+pub(super) fn write(xml: &mut Xml, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
     let subject = Subject::Object(pdo.mapping_index);
     xml.open(if pdo.direction == Direction::Receive { "RxPdo" } else { "TxPdo" });
     attributes(xml, pdo);
     slot_index(xml, "Index", pdo.mapping_index, pdo.depends_on_slot, pdo.depends_on_slot_group);
-    names(xml, "Name", &pdo.name, &pdo.names, notes, subject);
+    names(xml, "Name", &pdo.name, &pdo.names, subject);
     pdo.excludes.iter().for_each(|excluded| xml.leaf("Exclude", hex(*excluded, 4)));
-    pdo.entries.iter().for_each(|each| entry(xml, notes, types, each));
+    pdo.entries.iter().for_each(|each| entry(xml, types, each));
     pdo.excluded_sync_managers.iter().for_each(|number| xml.leaf("ExcludedSm", number));
     xml.close();
-    notes.add_many(NoteKind::Extension, pdo.extensions.len(), subject);
-    notes.add_many(NoteKind::Pdo, pdo.communication.is_some() && is_slave, subject);
-    notes.add_many(NoteKind::Documentation, pdo.documentation.is_some(), subject);
-    notes.add_many(NoteKind::Doubt, pdo.doubts.len(), subject);
+    xml.notes.add_many(NoteKind::Extension, pdo.extensions.len(), subject);
+    xml.notes.add_many(NoteKind::Pdo, pdo.communication.is_some() && is_slave, subject);
+    xml.notes.add_many(NoteKind::Documentation, pdo.documentation.is_some(), subject);
+    xml.notes.add_many(NoteKind::Doubt, pdo.doubts.len(), subject);
 }
 
 fn attributes(xml: &mut Xml, pdo: &Pdo) {
@@ -57,14 +57,14 @@ pub(super) fn slot_index(
     xml.close();
 }
 
-fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) {
+fn entry(xml: &mut Xml, types: &Types<'_>, entry: &PdoEntry) {
     xml.open("Entry");
     xml.flag("Fixed", entry.fixed, "true");
     slot_index(xml, "Index", entry.index, entry.depends_on_slot, entry.depends_on_slot_group);
     xml.optional_leaf("SubIndex", Some(entry.sub_index).filter(|sub_index| entry.index != 0 || *sub_index != 0));
     xml.leaf("BitLen", entry.bits);
     if !entry.name.is_empty() || !entry.names.is_empty() {
-        names(xml, "Name", &entry.name, &entry.names, notes, Subject::Entry(entry.index, entry.sub_index));
+        names(xml, "Name", &entry.name, &entry.names, Subject::Entry(entry.index, entry.sub_index));
     }
     xml.optional_leaf("DataType", entry_type(types, data_type(types, entry)));
     xml.close();

@@ -1,20 +1,19 @@
 //! Writes the slots of a modular device.
 
 use super::text::{hex, names};
-use super::Context;
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Device, EtherCatSettings, Fit, Slot, SlotRules};
 
 /// Writes the Slots element. If the source has no slot settings for EtherCAT, only adds a note that counts the slots.
-pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, settings: &EtherCatSettings) {
+pub(super) fn write(xml: &mut Xml, device: &Device, settings: &EtherCatSettings) {
     let Some(rules) = settings.slots.as_deref() else {
-        return context.notes.add_many(NoteKind::Slot, device.slots.len(), Subject::Named(&device.name));
+        return xml.notes.add_many(NoteKind::Slot, device.slots.len(), Subject::Named(&device.name));
     };
     xml.open("Slots");
-    attributes(xml, &mut context.notes, rules);
+    attributes(xml, rules);
     for each in &device.slots {
-        slot(xml, &mut context.notes, each, rules);
+        slot(xml, each, rules);
     }
     for (number, name) in &rules.groups {
         xml.open("SlotGroupData");
@@ -38,13 +37,13 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device, s
     xml.close();
 }
 
-fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
+fn attributes(xml: &mut Xml, rules: &SlotRules) {
     xml.flag("DownloadModuleIdentList", rules.download_idents, "true");
     xml.flag("DownloadModuleAddressList", rules.download_addresses, "true");
     match rules.download_transition.as_str() {
         "PS" | "" => {}
         transition @ ("IP" | "SO") => xml.attribute("DownloadModuleListTransition", transition),
-        _ => notes.add(NoteKind::Spelling, Subject::Named("DownloadModuleListTransition")),
+        _ => xml.notes.add(NoteKind::Spelling, Subject::Named("DownloadModuleListTransition")),
     }
     xml.optional("MaxSlotCount", rules.max_slots);
     xml.optional("MaxSlotGroupCount", rules.max_groups);
@@ -59,7 +58,7 @@ fn attributes(xml: &mut Xml, notes: &mut Notes, rules: &SlotRules) {
     }
 }
 
-fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
+fn slot(xml: &mut Xml, slot: &Slot, rules: &SlotRules) {
     let subject = Subject::Named(&slot.name);
     xml.open("Slot");
     xml.optional("SlotGroup", slot.group);
@@ -78,15 +77,15 @@ fn slot(xml: &mut Xml, notes: &mut Notes, slot: &Slot, rules: &SlotRules) {
         xml.attribute("Default", hex(ident, 8));
     }
     if !slot.name.is_empty() || !slot.names.is_empty() {
-        names(xml, "Name", &slot.name, &slot.names, notes, subject);
+        names(xml, "Name", &slot.name, &slot.names, subject);
     }
-    fits(xml, notes, slot);
+    fits(xml, slot);
     xml.close();
 }
 
 /// Writes references to the modules that fit a slot: by ident, or by class if there are no idents. Adds a note for each
 /// other reference.
-fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
+fn fits(xml: &mut Xml, slot: &Slot) {
     let by_ident = slot.fits.iter().any(|fit| matches!(fit, Fit::Ident(_)));
     for fit in &slot.fits {
         match fit {
@@ -94,7 +93,7 @@ fn fits(xml: &mut Xml, notes: &mut Notes, slot: &Slot) {
             Fit::Class(class) if !by_ident => {
                 xml.leaves("ModuleClass", &[("Class", &class)]);
             }
-            Fit::Class(_) | Fit::Name(_) => notes.add(NoteKind::Slot, Subject::Named(&slot.name)),
+            Fit::Class(_) | Fit::Name(_) => xml.notes.add(NoteKind::Slot, Subject::Named(&slot.name)),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::etg::language;
 use lexibus_codegen::ir::{Documentation, LocalText, Texts};
@@ -13,14 +13,7 @@ pub(super) fn hex(value: impl Into<u32>, digits: usize) -> impl fmt::Display {
 }
 
 /// Writes a name and its translations.
-pub(super) fn names(
-    xml: &mut Xml,
-    element: &'static str,
-    text: &str,
-    others: &Texts,
-    notes: &mut Notes,
-    subject: Subject<'_>,
-) {
+pub(super) fn names(xml: &mut Xml, element: &'static str, text: &str, others: &Texts, subject: Subject<'_>) {
     // If there is another English name, write the language number: without the number, a reader would use the other
     // name.
     let is_english = |local: &LocalText| language::lcid(&local.language) == Some(language::ENGLISH);
@@ -29,14 +22,14 @@ pub(super) fn names(
     xml.content(text);
     xml.close();
     for local in others.iter() {
-        name(xml, element, local, notes, subject);
+        name(xml, element, local, subject);
     }
 }
 
 /// Writes a text in one language.
-pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, notes: &mut Notes, subject: Subject<'_>) {
+pub(super) fn name(xml: &mut Xml, element: &'static str, local: &LocalText, subject: Subject<'_>) {
     let Some(lcid) = language::lcid(&local.language) else {
-        return notes.add(NoteKind::Language, subject);
+        return xml.notes.add(NoteKind::Language, subject);
     };
     xml.open(element);
     xml.attribute("LcId", lcid);
@@ -49,10 +42,9 @@ pub(super) fn documentation(
     xml: &mut Xml,
     element: &'static str,
     documentation: Option<&Documentation>,
-    notes: &mut Notes,
     subject: Subject<'_>,
 ) {
     if let Some(documentation) = documentation.filter(|documentation| !documentation.text.is_empty()) {
-        names(xml, element, &documentation.text, &documentation.translations, notes, subject);
+        names(xml, element, &documentation.text, &documentation.translations, subject);
     }
 }

@@ -4,7 +4,6 @@ use std::collections::HashSet;
 
 use lexibus_codegen::ir::{Catalog, TypeDef};
 
-use super::super::note::Notes;
 use super::super::options::MissingFacts;
 use super::options::TrackedOptions;
 use super::texts::TextList;
@@ -14,7 +13,6 @@ pub(super) struct Context<'a> {
     pub(super) catalog: &'a Catalog,
     pub(super) options: &'a TrackedOptions<'a>,
     pub(super) types: &'a [TypeDef],
-    pub(super) notes: Notes,
     pub(super) missing: MissingFacts,
     pub(super) texts: TextList,
     /// Positions of the pluggable ports in the list of submodules.

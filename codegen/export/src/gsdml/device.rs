@@ -46,7 +46,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     elements::SLOT_GROUPS.write(xml, attributes);
     elements::FIELDBUS_SLOTS.write(xml, attributes);
     xml.close();
-    context.notes.add_many(NoteKind::Extension, device.extensions.len(), Subject::Named(&device.name));
+    xml.notes.add_many(NoteKind::Extension, device.extensions.len(), Subject::Named(&device.name));
 }
 
 fn head(xml: &mut Xml, device: &Device, settings: &ProfinetSettings) {

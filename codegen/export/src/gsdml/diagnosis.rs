@@ -81,7 +81,7 @@ fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: 
         xml.close();
     });
     let unused: usize = extended.values().map(Vec::len).sum();
-    context.notes.add_many(NoteKind::OtherPart, unused, Subject::Named(&name_of_extended));
+    xml.notes.add_many(NoteKind::OtherPart, unused, Subject::Named(&name_of_extended));
 }
 
 fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List, rows: Vec<&CodeRow>) {
@@ -134,7 +134,7 @@ fn unit_diagnosis(xml: &mut Xml, context: &mut Context<'_>, diagnosis: &UnitDiag
     context.texts.documentation(xml, "Help", diagnosis.documentation.as_deref());
     diagnosis.fields.iter().for_each(|each| field(xml, context, each));
     xml.close();
-    context.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Subject::Named(&diagnosis.name));
+    xml.notes.add_many(NoteKind::Extension, diagnosis.extensions.len(), Subject::Named(&diagnosis.name));
 }
 
 fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {

@@ -164,7 +164,7 @@ mod tests {
         .map(|(key, value)| (CompactString::from(key), CompactString::from(value)));
         let mut xml = Xml::new();
         MAU_TYPES.write(&mut xml, &list);
-        let text = xml.finish().lines().skip(1).map(str::trim).collect::<Vec<_>>().join("");
+        let text = xml.finish().text.lines().skip(1).map(str::trim).collect::<Vec<_>>().join("");
         let items = "<MAUTypeItem Value=\"16\" Extension=\"1\"/><MAUTypeItem Value=\"30\"/>";
         assert_eq!(text, format!("<MAUTypeList ExtensionSupported=\"true\">{items}</MAUTypeList>"));
         assert!(is_of_element("TimeSynchronisation") && !is_of_element("MayIssueProcessAlarm"));

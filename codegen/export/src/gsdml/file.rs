@@ -2,7 +2,7 @@
 
 use lexibus_codegen::ir::{Catalog, CompactString, Format, ProfileHeader};
 
-use super::super::note::{Notes, Subject};
+use super::super::note::Subject;
 use super::super::options::MissingFacts;
 use super::super::xml::Xml;
 use super::context::Context;
@@ -25,10 +25,10 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let options = &TrackedOptions::new(options);
     // Mark the option `date` as used, because the file name contains the date even if the content of the file does not.
     options.date();
-    let (mut notes, mut missing) = (Notes::default(), MissingFacts::new(Options::KEYS));
+    let (mut xml, mut missing) = (Xml::new(), MissingFacts::new(Options::KEYS));
     let from_images = match is_gsdml(catalog) {
         true => None,
-        false => Some(image::catalog(catalog, options, &mut notes, &mut missing).ok_or(Refusal::Nothing)?),
+        false => Some(image::catalog(catalog, options, &mut xml.notes, &mut missing).ok_or(Refusal::Nothing)?),
     };
     let catalog = from_images.as_ref().unwrap_or(catalog);
     if catalog.devices.is_empty() && catalog.modules.is_empty() && catalog.submodules.is_empty() {
@@ -39,17 +39,14 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         catalog,
         options,
         types: &catalog.types,
-        notes,
         missing,
         texts,
         pluggable_ports: submodule::pluggable_ports(catalog),
         is_gsdml: from_images.is_none(),
     };
-    let mut xml = Xml::new();
     root(&mut xml, &mut context);
-    let Context { mut notes, missing, .. } = context;
-    options.note_unused(&mut notes);
-    missing.finish(xml, notes)
+    options.note_unused(&mut xml.notes);
+    context.missing.finish(xml)
 }
 
 /// Returns the required file name without extension: schema version, vendor, family and date. If the options contain no
@@ -100,8 +97,8 @@ fn root(xml: &mut Xml, context: &mut Context<'_>) {
     xml.open("ApplicationProcess");
     process(xml, context);
     let texts = std::mem::take(&mut context.texts);
-    texts.write(xml, &mut context.notes);
-    lost(context);
+    texts.write(xml);
+    lost(xml, context.catalog);
 }
 
 /// Writes the header (ISO 15745-1). Elements that the source does not have get their usual content.
@@ -188,10 +185,9 @@ fn category(xml: &mut Xml, context: &mut Context<'_>, family: &lexibus_codegen::
 }
 
 /// Adds notes for the extensions, vendor names, URLs and code tables of the catalog that the file does not contain.
-fn lost(context: &mut Context<'_>) {
-    let catalog = context.catalog;
+fn lost(xml: &mut Xml, catalog: &Catalog) {
     let lost = catalog.extensions.len() + catalog.vendor_names.len() + catalog.vendor_urls.len();
-    context.notes.add_many(NoteKind::Extension, lost, Subject::Device);
+    xml.notes.add_many(NoteKind::Extension, lost, Subject::Device);
     let tables = catalog.code_tables.iter().filter(|table| !diagnosis::is_list(&table.name)).count();
-    context.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
+    xml.notes.add_many(NoteKind::OtherPart, tables, Subject::Device);
 }

@@ -42,7 +42,7 @@ fn simple(xml: &mut Xml, context: &mut Context<'_>, fields: &[PdoEntry]) {
     let types = context.types;
     for field in fields {
         let Name { name, needs_length, note } = types::name(field.ty, field.bits, types);
-        context.notes.add_all(note, Subject::Named(&field.name));
+        xml.notes.add_all(note, Subject::Named(&field.name));
         xml.open("DataItem");
         xml.attribute("DataType", name);
         xml.optional("Length", needs_length.then_some(field.bits / 8));

@@ -31,7 +31,7 @@ pub(super) fn info(
     // The schema requires the element InfoText, so the name replaces a missing text.
     if documentation.is_none() && !context.is_gsdml {
         context.texts.text(xml, "InfoText", name, names);
-        context.notes.add(NoteKind::MissingText, Subject::Named(name));
+        xml.notes.add(NoteKind::MissingText, Subject::Named(name));
     }
     elements::FAMILY.write(xml, attributes);
     let elements = ["VendorName", "OrderNumber", "HardwareRelease", "SoftwareRelease"];
@@ -85,5 +85,5 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     submodule::useable(xml, context, &module.submodules);
     graphics(xml, &module.attributes);
     xml.close();
-    context.notes.add_many(NoteKind::Extension, module.extensions.len(), Subject::Named(&module.name));
+    xml.notes.add_many(NoteKind::Extension, module.extensions.len(), Subject::Named(&module.name));
 }

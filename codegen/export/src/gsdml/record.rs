@@ -30,7 +30,7 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
         body(xml, context, record, group, &menus.take(group));
         xml.close();
     }
-    context.notes.add_many(NoteKind::OtherPart, menus.others(), Subject::Named(&submodule.name));
+    xml.notes.add_many(NoteKind::OtherPart, menus.others(), Subject::Named(&submodule.name));
     if let Some(parameters) = &submodule.f_parameters {
         f_record(xml, submodule, parameters);
     }
@@ -95,7 +95,7 @@ pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, gr
     group.items.iter().for_each(|item| parameter(xml, context, item));
     let names: HashSet<&str> = menus.iter().map(|menu| menu.id.as_str()).collect();
     xml.list("MenuList", menus, |xml, each| menu(xml, context, each, &names));
-    context.notes.add_many(NoteKind::Extension, group.extensions.len(), Subject::Named(&group.name));
+    xml.notes.add_many(NoteKind::Extension, group.extensions.len(), Subject::Named(&group.name));
 }
 
 fn octets(data: &[u8]) -> String {
@@ -110,7 +110,7 @@ fn octets(data: &[u8]) -> String {
 fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let subject = Subject::Named(&item.name);
     let Some(Binding::Record { bit_offset, bits, .. }) = item.bindings.first() else {
-        return context.notes.add(NoteKind::Binding, subject);
+        return xml.notes.add(NoteKind::Binding, subject);
     };
     let (offset, bits, types) = (*bit_offset, *bits, context.types);
     let values = types::enumeration(item.ty, types);
@@ -124,14 +124,14 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     types::position(xml, context, ty, offset, bits, &item.name);
     xml.optional("DefaultValue", item.default.as_ref().and_then(value));
     if item.limits.are_swapped(ty) && item.limits.allowed.is_empty() {
-        context.notes.add(NoteKind::SwappedLimits, subject);
+        xml.notes.add(NoteKind::SwappedLimits, subject);
     }
     xml.optional("AllowedValues", allowed(item));
     xml.flag("Changeable", item.access != Access::ReadWrite, "false");
     xml.flag("Visible", item.behavior.as_ref().is_some_and(|behavior| behavior.hidden), "false");
     xml.attribute("TextId", context.texts.id(&item.name, &item.names));
     xml.close();
-    context.notes.add_many(NoteKind::Extension, item.extensions.len(), subject);
+    xml.notes.add_many(NoteKind::Extension, item.extensions.len(), subject);
 }
 
 /// Returns an identifier in the relations of an item, if there is one.

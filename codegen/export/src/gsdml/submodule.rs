@@ -150,7 +150,7 @@ fn write(
         elements::OF_SUBMODULE.iter().for_each(|element| element.write(xml, attributes));
     }
     xml.close();
-    context.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Subject::Named(&submodule.name));
+    xml.notes.add_many(NoteKind::Extension, submodule.extensions.len(), Subject::Named(&submodule.name));
 }
 
 fn head(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule, has_info: bool) {

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use compact_str::{format_compact, CompactString};
 
-use crate::note::{NoteKind, Notes, Subject};
+use crate::note::{NoteKind, Subject};
 use crate::xml::Xml;
 use lexibus_codegen::ir::{Documentation, Texts, UnusedText};
 
@@ -95,7 +95,7 @@ impl TextList {
     }
 
     /// Writes the ExternalTextList element.
-    pub(super) fn write(self, xml: &mut Xml, notes: &mut Notes) {
+    pub(super) fn write(self, xml: &mut Xml) {
         xml.open("ExternalTextList");
         xml.open("PrimaryLanguage");
         for (id, value, _) in &self.texts {
@@ -104,7 +104,7 @@ impl TextList {
         xml.close();
         for (language, texts) in self.translations() {
             if !is_tag(language) {
-                notes.add_many(NoteKind::Language, texts.len(), Subject::Named(language));
+                xml.notes.add_many(NoteKind::Language, texts.len(), Subject::Named(language));
                 continue;
             }
             xml.open("Language");

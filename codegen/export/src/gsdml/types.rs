@@ -58,7 +58,7 @@ pub(super) fn position(xml: &mut Xml, context: &mut Context<'_>, ty: Type, offse
         _ if is_bits => plain("BitArea"),
         _ => name(ty, bits, context.types),
     };
-    context.notes.add_all(note, Subject::Named(subject));
+    xml.notes.add_all(note, Subject::Named(subject));
     xml.attribute("DataType", &name);
     xml.attribute("ByteOffset", offset / 8);
     xml.optional("BitOffset", (is_bits && !is_byte).then_some(offset % 8));

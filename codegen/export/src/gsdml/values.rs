@@ -51,7 +51,7 @@ fn assignments(xml: &mut Xml, context: &mut Context<'_>, values: &[EnumValue]) {
         }
         xml.close();
         let is_more = value.documentation.is_some();
-        context.notes.add_many(NoteKind::Documentation, is_more, Subject::Named(&value.name));
+        xml.notes.add_many(NoteKind::Documentation, is_more, Subject::Named(&value.name));
     }
     xml.close();
 }
