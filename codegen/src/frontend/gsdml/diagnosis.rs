@@ -237,17 +237,6 @@ fn table(name: &'static str, columns: &[&'static str], rows: Vec<CodeRow>, origi
 
 /// Returns whether an element of a list describes a code.
 fn is_code(element: &str) -> bool {
-    const NAMES: [&str; 10] = [
-        "ChannelDiagItem",
-        "SystemDefinedChannelDiagItem",
-        "ProfileChannelDiagItem",
-        "ExtChannelDiagItem",
-        "ProfileExtChannelDiagItem",
-        "ChannelProcessAlarmItem",
-        "SystemDefinedChannelProcessAlarmItem",
-        "ProfileChannelProcessAlarmItem",
-        "ExtChannelProcessAlarmItem",
-        "ProfileExtChannelProcessAlarmItem",
-    ];
-    NAMES.contains(&element)
+    let kind = ["ChannelDiagItem", "ChannelProcessAlarmItem"].iter().find_map(|item| element.strip_suffix(item));
+    matches!(kind, Some("" | "SystemDefined" | "Profile" | "Ext" | "ProfileExt"))
 }

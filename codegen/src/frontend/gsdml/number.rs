@@ -51,8 +51,7 @@ impl<'a> Reader<'a, '_> {
         if let Some(value) = hex(&given.text).and_then(fits) {
             return Some(value);
         }
-        let value = if given.text.starts_with('+') { None } else { u64::from_str_radix(&given.text, 16).ok() };
-        let value = value.and_then(fits);
+        let value = digits(&given.text).and_then(fits);
         match value {
             Some(value) => {
                 let message = format!("`{}` has no prefix `0x`", given.text);
@@ -75,6 +74,7 @@ impl<'a> Reader<'a, '_> {
     pub fn numbers(&mut self, given: &Given<'_>) -> Numbers {
         let mut list = SmallVec::new();
         let mut broken = None;
+        let range = |part: &str| range(part, |number| number.parse::<u16>().ok());
         for part in given.text.split_ascii_whitespace() {
             match range(part) {
                 Some((first, last)) if first <= last => list.push((first, last)),
@@ -94,19 +94,22 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-fn range(text: &str) -> Option<(u16, u16)> {
+/// Reads a number or a range such as `1..3`. Returns the first and the last number. `number` reads a number.
+pub(super) fn range<T: Clone>(text: &str, number: impl Fn(&str) -> Option<T>) -> Option<(T, T)> {
     match text.split_once("..") {
-        Some((first, last)) => Some((first.parse().ok()?, last.parse().ok()?)),
-        None => text.parse().ok().map(|number| (number, number)),
+        Some((first, last)) => Some((number(first)?, number(last)?)),
+        None => number(text).map(|number| (number.clone(), number)),
     }
 }
 
-fn hex(text: &str) -> Option<u64> {
-    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
-    if digits.starts_with('+') {
-        return None;
-    }
-    u64::from_str_radix(digits, 16).ok()
+/// Reads hexadecimal digits after `0x`.
+pub(super) fn hex(text: &str) -> Option<u64> {
+    digits(text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?)
+}
+
+fn digits(text: &str) -> Option<u64> {
+    // `from_str_radix` also accepts a plus sign.
+    (!text.starts_with('+')).then(|| u64::from_str_radix(text, 16).ok()).flatten()
 }
 
 /// Returns the parts of a list such as `a;b;c`.
@@ -117,9 +120,5 @@ pub(super) fn tokens(text: &str) -> impl Iterator<Item = &str> {
 /// Reads a list of 32-bit numbers and ranges. Returns `None` if a part is neither a number nor a range.
 pub(super) fn wide_ranges(text: &str) -> Option<Vec<(i128, i128)>> {
     let number = |text: &str| text.parse::<u32>().ok().map(i128::from);
-    let range = |part: &str| match part.split_once("..") {
-        Some((first, last)) => Some((number(first)?, number(last)?)),
-        None => number(part).map(|value| (value, value)),
-    };
-    text.split_ascii_whitespace().map(range).collect()
+    text.split_ascii_whitespace().map(|part| range(part, number)).collect()
 }

@@ -1,5 +1,6 @@
 //! Reads the default values and allowed values of parameters.
 
+use super::number::{hex, range};
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::xml::Given;
@@ -138,16 +139,12 @@ fn boolean(text: &str) -> Option<Value> {
 
 /// Reads an integer in an allowed or default value. The Boolean is true for a decimal number, and false for a hexadecimal
 /// number.
-fn whole(text: &str) -> Option<(i128, bool)> {
-    if let Ok(value) = text.parse::<i64>() {
-        return Some((value.into(), true));
+pub(super) fn whole(text: &str) -> Option<(i128, bool)> {
+    let decimal = text.parse::<i64>().map(i128::from).or_else(|_| text.parse::<u64>().map(i128::from));
+    match decimal {
+        Ok(value) => Some((value, true)),
+        Err(_) => hex(text).map(|value| (value.into(), false)),
     }
-    if let Ok(value) = text.parse::<u64>() {
-        return Some((value.into(), true));
-    }
-    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
-    let value = if digits.starts_with('+') { None } else { u64::from_str_radix(digits, 16).ok() };
-    value.map(|value| (value.into(), false))
 }
 
 fn real(text: &str) -> Option<f64> {
@@ -161,31 +158,13 @@ fn real(text: &str) -> Option<f64> {
 
 /// Reads octets such as `0x01,0x02`.
 pub(super) fn octets(text: &str) -> Option<Vec<u8>> {
-    text.split(',').map(|octet| octet_of(octet.trim())).collect()
-}
-
-fn octet_of(text: &str) -> Option<u8> {
-    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
-    let only_digits = digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    if only_digits {
-        u8::from_str_radix(digits, 16).ok()
-    } else {
-        None
-    }
+    text.split(',').map(|octet| u8::try_from(hex(octet.trim())?).ok()).collect()
 }
 
 fn integer_range(part: &str) -> Option<(Value, Value)> {
-    let number = |text: &str| whole(text).map(|(value, _)| Value::Int(value));
-    range(part, number)
+    range(part, |text| whole(text).map(|(value, _)| Value::Int(value)))
 }
 
 fn real_range(part: &str) -> Option<(Value, Value)> {
     range(part, |text| real(text).map(Value::Real))
-}
-
-fn range(part: &str, number: impl Fn(&str) -> Option<Value>) -> Option<(Value, Value)> {
-    match part.split_once("..") {
-        Some((first, last)) => Some((number(first)?, number(last)?)),
-        None => number(part).map(|value| (value.clone(), value)),
-    }
 }

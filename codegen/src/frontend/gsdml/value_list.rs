@@ -1,8 +1,10 @@
 //! Reads the value list, which contains named values of parameters.
 
 use super::links::ElementKind;
+use super::number::range;
 use super::reader::Reader;
 use super::types::ValueItem;
+use super::value::whole;
 use crate::frontend::xml::Read;
 use crate::ir::EnumValue;
 use crate::syntax::xml::Tag;
@@ -53,28 +55,17 @@ impl<'a> Reader<'a, '_> {
 
 /// Reads a value or range, such as `7` or `0..3`. Returns `None` for a descending range and for invalid text.
 fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
-    match text.split_once("..") {
-        Some((first, last)) => {
-            let (first, last) = (whole(first)?, whole(last)?);
-            (first <= last).then_some((first, (first != last).then_some(last)))
-        }
-        None => whole(text).map(|value| (value, None)),
-    }
+    let (first, last) = range(text, integer)?;
+    (first <= last).then_some((first, (first != last).then_some(last)))
 }
 
 /// Reads an integer in a value list. Also accepts a number with a zero fraction, such as `7.0`, and hexadecimal digits
 /// after `0x`.
-fn whole(text: &str) -> Option<i128> {
+fn integer(text: &str) -> Option<i128> {
     let text = text.trim();
-    if let Ok(value) = text.parse::<i64>() {
-        return Some(value.into());
-    }
     if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
         return u64::from_str_radix(digits, 16).ok().map(i128::from);
     }
-    if let Ok(value) = text.parse::<u64>() {
-        return Some(value.into());
-    }
-    let value = text.parse::<f64>().ok()?;
-    (value.fract() == 0.0 && value.abs() < 9e15).then_some(value as i128)
+    let real = || text.parse::<f64>().ok().filter(|value| value.fract() == 0.0 && value.abs() < 9e15);
+    whole(text).map(|(value, _)| value).or_else(|| real().map(|value| value as i128))
 }
