@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::attributes::Attributes;
+use super::attributes::{keys, Attributes};
 use super::data_type::{RawType, TypeRef};
 use super::reader::{Lang, Reader, Texts};
 use crate::collections::HashMap;
@@ -30,23 +30,24 @@ pub(super) struct Application<'a> {
     pub type_ids: Ids<'a>,
 }
 
-/// Attributes of a parameter, and child elements that contain one value. The discriminant is the position of the
-/// attribute in [`Parameter::attributes`].
-#[derive(Clone, Copy)]
-pub(super) enum ParameterKey {
-    Template,
-    Access,
-    Support,
-    Persistent,
-    Offset,
-    Multiplier,
-    Default,
-    Actual,
-}
-
-impl ParameterKey {
-    /// Number of keys.
-    pub const COUNT: usize = ParameterKey::Actual as usize + 1;
+keys! {
+    /// Attributes of a parameter, and child elements that contain one value. The discriminant is the position of the
+    /// attribute in [`Parameter::attributes`].
+    ParameterKey {
+        Id = "uniqueID",
+        Template = "templateIDRef",
+        Access = "access",
+        Support = "support",
+        Persistent = "persistent",
+        Offset = "offset",
+        Multiplier = "multiplier",
+        AccessList = "accessList",
+        // Only a `varDeclaration` element has the attribute `name`.
+        Name = "name",
+        Default = "initialValue",
+        ;
+        Actual,
+    }
 }
 
 /// Contents of a `parameter`, `parameterTemplate` or `varDeclaration` element.

@@ -4,6 +4,22 @@ use thin_vec::ThinVec;
 
 use crate::frontend::xml::Given;
 
+/// Declares keys for the attributes of an element, with the names of the attributes. Further keys are those of child
+/// elements that contain one value.
+macro_rules! keys {
+    ($(#[$doc:meta])* $keys:ident { $($key:ident = $name:literal,)+ $(; $($child:ident,)+)? }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy)]
+        pub(super) enum $keys { $($key,)+ $($($child,)+)? }
+
+        impl $keys {
+            /// Names of the attributes in the order of the keys.
+            pub const NAMES: [&'static str; [$($name),+].len()] = [$($name),+];
+        }
+    };
+}
+pub(super) use keys;
+
 /// Attributes of an element, each with its position in the array of all attributes. Missing attributes need no memory.
 /// Most elements have only a few of the attributes that the standard defines.
 #[derive(Default)]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::application::{Application, ParameterKey, View};
-use super::attributes::Attributes;
+use super::attributes::{keys, Attributes};
 use super::number::integer;
 use super::object_list::{missing_index, ObjectList};
 use super::reader::Reader;
@@ -52,50 +52,26 @@ pub(super) fn build<'a>(
     Ok(())
 }
 
-/// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw::attributes`].
-#[derive(Clone, Copy)]
-pub(super) enum Key {
-    Index,
-    Name,
-    ObjectType,
-    DataType,
-    AccessType,
-    DefaultValue,
-    PdoMapping,
-    LowLimit,
-    HighLimit,
-    ObjFlags,
-    ActualValue,
-    Denotation,
-    UniqueIdRef,
-    SubNumber,
-    RangeSelector,
+keys! {
+    /// Attributes of an object or sub-object. The discriminant is the position of the attribute in [`Raw::attributes`].
+    Key {
+        Index = "index",
+        Name = "name",
+        ObjectType = "objectType",
+        DataType = "dataType",
+        AccessType = "accessType",
+        DefaultValue = "defaultValue",
+        PdoMapping = "PDOmapping",
+        LowLimit = "lowLimit",
+        HighLimit = "highLimit",
+        ObjFlags = "objFlags",
+        ActualValue = "actualValue",
+        Denotation = "denotation",
+        UniqueIdRef = "uniqueIDRef",
+        SubNumber = "subNumber",
+        RangeSelector = "rangeSelector",
+    }
 }
-
-macro_rules! attributes {
-    ($index:literal) => {
-        [
-            $index,
-            "name",
-            "objectType",
-            "dataType",
-            "accessType",
-            "defaultValue",
-            "PDOmapping",
-            "lowLimit",
-            "highLimit",
-            "objFlags",
-            "actualValue",
-            "denotation",
-            "uniqueIDRef",
-            "subNumber",
-            "rangeSelector",
-        ]
-    };
-}
-
-const OBJECT: [&str; 15] = attributes!("index");
-const SUB_OBJECT: [&str; 15] = attributes!("subIndex");
 
 /// Attributes that describe a single value, and have no meaning for an object whose values are in its sub-objects.
 const OF_A_VALUE: [Key; 8] = [
@@ -159,15 +135,18 @@ pub(super) struct Builder<'a, 'd, 'p> {
 }
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
-    /// Reads the attributes of an object or sub-object, and calls `child` for each child element.
+    /// Reads the attributes of an object or sub-object, and calls `child` for each child element. `index` is the name of the
+    /// attribute that contains the index or sub-index.
     fn raw(
         &mut self,
         tag: &Tag<'a>,
-        names: [&str; OBJECT.len()],
+        index: &'static str,
         mut child: impl FnMut(&mut Self, &Tag<'a>) -> Read<()>,
     ) -> Read<Raw<'a>> {
         let start = self.reader.extensions.len();
         let origin = self.reader.origin(tag);
+        let mut names = Key::NAMES;
+        names[Key::Index as usize] = index;
         let mut values = self.reader.attributes(tag, names)?;
         self.reader.note("rangeSelector", &values[Key::RangeSelector as usize]);
         while let Some(tag) = self.reader.child(tag)? {
@@ -178,7 +157,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     fn object(&mut self, index: u16, tag: &Tag<'a>) -> Read<Group> {
         let mut subs: BTreeMap<u8, Raw<'a>> = BTreeMap::new();
-        let mut raw = self.raw(tag, OBJECT, |builder, child| match child.name {
+        let mut raw = self.raw(tag, "index", |builder, child| match child.name {
             "CANopenSubObject" => builder.sub_object(child, &mut subs),
             _ => builder.reader.unknown(child),
         })?;
@@ -210,7 +189,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     fn sub_object(&mut self, tag: &Tag<'a>, subs: &mut BTreeMap<u8, Raw<'a>>) -> Read<()> {
-        let raw = self.raw(tag, SUB_OBJECT, |builder, child| builder.reader.unknown(child))?;
+        let raw = self.raw(tag, "subIndex", |builder, child| builder.reader.unknown(child))?;
         let Some(sub) = raw.get(Key::Index).and_then(|given| self.reader.hex(given, 0xFF, "sub-index")) else {
             missing_index(self.reader, tag, "this sub-object has no sub-index");
             return Ok(());
@@ -276,7 +255,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             if matches!(given.text.as_ref(), "no" | "0") && matches!(key, Key::PdoMapping | Key::SubNumber) {
                 continue;
             }
-            let name = OBJECT[key as usize];
+            let name = Key::NAMES[key as usize];
             if self.reader.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
                 let message = format!("{name} has no meaning for this object");
                 self.reader.report(&codes::NOT_ALLOWED_ENTRY, given.span, message, "kept as an extension attribute");

@@ -8,37 +8,19 @@ use crate::frontend::xml::{Given, Read};
 use crate::ir::Extension;
 use crate::syntax::xml::Tag;
 
+/// Value of each [`ParameterKey`].
+type Values<'a> = [Given<'a>; ParameterKey::Actual as usize + 1];
+
 /// Reads a `parameter`, `parameterTemplate` or `varDeclaration` element. Also returns its uniqueID.
 pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Given<'a>, Parameter<'a>)> {
-    const NAMES: [&str; 10] = [
-        "uniqueID",
-        "templateIDRef",
-        "access",
-        "support",
-        "persistent",
-        "offset",
-        "multiplier",
-        "accessList",
-        // Only a `varDeclaration` element has the attribute `name`.
-        "name",
-        "initialValue",
-    ];
     let (mut parameter, start) = (Parameter::default(), reader.extensions.len());
-    let attributes = reader.attributes(parent, NAMES)?;
-    let [id, template, access, support, persistent, offset, multiplier, access_list, name, initial] = attributes;
-    reader.note("accessList", &access_list);
-    let mut values: [Given<'a>; ParameterKey::COUNT] = Default::default();
-    for (key, value) in [
-        (ParameterKey::Template, template),
-        (ParameterKey::Access, access),
-        (ParameterKey::Support, support),
-        (ParameterKey::Persistent, persistent),
-        (ParameterKey::Offset, offset),
-        (ParameterKey::Multiplier, multiplier),
-        (ParameterKey::Default, initial),
-    ] {
-        values[key as usize] = value;
+    let mut values = Values::default();
+    for (value, given) in values.iter_mut().zip(reader.attributes(parent, ParameterKey::NAMES)?) {
+        *value = given;
     }
+    let [id, name, access_list] = [ParameterKey::Id, ParameterKey::Name, ParameterKey::AccessList]
+        .map(|key| std::mem::take(&mut values[key as usize]));
+    reader.note("accessList", &access_list);
     while let Some(tag) = reader.child(parent)? {
         child(reader, &tag, &mut parameter, &mut values)?;
     }
@@ -55,7 +37,7 @@ fn child<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     parameter: &mut Parameter<'a>,
-    values: &mut [Given<'a>; ParameterKey::COUNT],
+    values: &mut Values<'a>,
 ) -> Read<()> {
     if let Some(ty) = TypeRef::read(reader, tag)? {
         parameter.ty = Some(ty);
