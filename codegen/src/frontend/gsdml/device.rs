@@ -132,7 +132,7 @@ impl<'a> Reader<'a, '_> {
             let [target, allowed, fixed, used] = reader.attributes(tag, names)?;
             let places = reader.places([allowed, fixed, used]);
             if reader.require(tag, &target, "ModuleItemTarget", "left out") {
-                reader.format.links.module(device, target, places);
+                reader.format.links.modules.push((device, target, places));
             }
             reader.no_children(tag)
         })

@@ -19,7 +19,7 @@ pub(super) struct Header {
     vendor_id: Option<u32>,
     vendor_name: CompactString,
     device_id: Option<u32>,
-    /// Placeholder for the description of the device family; see `text_references`.
+    /// Placeholder for the description of the device family; see `resolve`.
     description: Option<Arc<Documentation>>,
     family: (CompactString, CompactString),
     /// Version of the GSDML schema, and the span of the version.

@@ -1,10 +1,9 @@
 //! Reads the cyclic data of a submodule: data items, bits and channels.
 
-use compact_str::CompactString;
+use compact_str::{format_compact, CompactString};
 
 use super::data_type::DataType;
 use super::reader::Reader;
-use super::text_references::with_suffix;
 use crate::diagnostics::codes;
 use crate::frontend::xml::{Given, Read};
 use crate::ir::{Direction, Doubts, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type};
@@ -142,6 +141,13 @@ impl<'a> Reader<'a, '_> {
         }
         Ok(channel)
     }
+}
+
+/// Returns a placeholder for the text of `placeholder` followed by `suffix`.
+fn with_suffix(placeholder: &str, suffix: &str) -> CompactString {
+    // A placeholder is the number of a reference. Without the space, digits at the start of the suffix would be read as
+    // a part of this number.
+    format_compact!("{placeholder} {suffix}")
 }
 
 /// Returns the number of quality bits of a format: 1 for a qualifier, 8 for a status, 0 for an unknown format.

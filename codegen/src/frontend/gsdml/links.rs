@@ -50,10 +50,12 @@ pub(super) enum Owner {
 #[derive(Default)]
 pub(super) struct Links<'a> {
     ids: HashMap<(ElementKind, Cow<'a, str>), (u32, Span)>,
-    modules: Vec<(usize, Given<'a>, SlotNumbers)>,
-    submodules: Vec<(Owner, Given<'a>, SlotNumbers)>,
+    /// References to modules that can be plugged into the device at this position.
+    pub modules: Vec<(usize, Given<'a>, SlotNumbers)>,
+    /// References to submodules that can be plugged into an element.
+    pub submodules: Vec<(Owner, Given<'a>, SlotNumbers)>,
     /// References that are only checked: the target must exist, but the reference is not part of the IR.
-    others: Vec<(ElementKind, Given<'a>)>,
+    pub others: Vec<(ElementKind, Given<'a>)>,
 }
 
 impl<'a> Links<'a> {
@@ -63,21 +65,6 @@ impl<'a> Links<'a> {
         let element = (u32::try_from(position).unwrap_or(u32::MAX), id.span);
         let (_, first) = *self.ids.entry((kind, id.text.clone())).or_insert(element);
         (first != id.span).then_some(first)
-    }
-
-    /// Adds a reference to a module that can be plugged into the device `device`.
-    pub fn module(&mut self, device: usize, target: Given<'a>, places: SlotNumbers) {
-        self.modules.push((device, target, places));
-    }
-
-    /// Adds a reference to a submodule that can be plugged into `owner`.
-    pub fn submodule(&mut self, owner: Owner, target: Given<'a>, places: SlotNumbers) {
-        self.submodules.push((owner, target, places));
-    }
-
-    /// Adds a reference that is only checked: the target must exist, but the reference is not part of the IR.
-    pub fn mention(&mut self, kind: ElementKind, target: &Given<'a>) {
-        self.others.push((kind, target.clone()));
     }
 
     fn find(&self, kind: ElementKind, target: &Given<'a>, diagnostics: &mut Diagnostics) -> Option<u32> {

@@ -14,7 +14,7 @@
 //! | `document`, `lists` | a file, and its lists of graphics and categories |
 //! | `reader` | reader state; identifiers, references to texts, required attributes |
 //! | `number` | numbers, Boolean values and lists |
-//! | `text_references`, `text_list`, `resolve` | references to texts, the text list, and the resolution of references |
+//! | `text_list`, `resolve` | the text list, and the resolution of references to texts |
 //! | `links` | identifiers of elements, and references to them |
 //! | `header` | name and version of the file, vendor, family |
 //! | `device` | device access points |
@@ -46,7 +46,6 @@ mod resolve;
 mod safety;
 mod submodule;
 mod text_list;
-mod text_references;
 mod types;
 mod value;
 mod value_list;

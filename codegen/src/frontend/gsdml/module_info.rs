@@ -34,7 +34,7 @@ impl<'a> Reader<'a, '_> {
         let [category, sub_category] = self.attributes(parent, ["CategoryRef", "SubCategory1Ref"])?;
         for (key, given) in [("CategoryRef", category), ("SubCategory1Ref", sub_category)] {
             if !given.is_missing() {
-                self.format.links.mention(ElementKind::Category, &given);
+                self.format.links.others.push((ElementKind::Category, given.clone()));
                 info.attributes.extend(given.attribute(key));
             }
         }
@@ -62,7 +62,7 @@ impl<'a> Reader<'a, '_> {
         self.each(list, "GraphicItemRef", |reader, tag| {
             let [kind, target] = reader.attributes(tag, ["Type", "GraphicItemTarget"])?;
             if reader.require(tag, &target, "GraphicItemTarget", "left out") {
-                reader.format.links.mention(ElementKind::Graphic, &target);
+                reader.format.links.others.push((ElementKind::Graphic, target.clone()));
                 graphics.push((kind.compact(), target.compact()));
             }
             reader.no_children(tag)

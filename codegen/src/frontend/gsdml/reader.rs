@@ -2,10 +2,9 @@
 
 use std::sync::Arc;
 
-use compact_str::format_compact;
+use compact_str::{format_compact, ToCompactString};
 
 use super::links::{ElementKind, Links};
-use super::text_references::TextReferences;
 use super::types::Types;
 use crate::diagnostics::{codes, Code};
 use crate::frontend::xml::{self, Attributes, Given, Read};
@@ -18,8 +17,8 @@ pub(super) type Reader<'a, 'd> = xml::Reader<'a, 'd, Gsdml<'a>>;
 /// State of the GSDML reader in addition to that of the XML reader.
 #[derive(Default)]
 pub(super) struct Gsdml<'a> {
-    /// References to the texts at the end of the file.
-    pub texts: TextReferences<'a>,
+    /// References to the texts at the end of the file, in the order in which they were read.
+    pub texts: Vec<Given<'a>>,
     /// Types found so far, which are moved to the catalog after the file is read.
     pub types: Types<'a>,
     /// Identifiers of elements, and references to these elements.
@@ -91,7 +90,14 @@ impl<'a> Reader<'a, '_> {
             self.report(&codes::MISSING_TEXT, tag.name_span(), message, "the name is left empty");
             return CompactString::default();
         }
-        self.format.texts.hold(given)
+        self.placeholder(given)
+    }
+
+    /// Adds a reference to a text and returns its placeholder; see `resolve`.
+    pub fn placeholder(&mut self, given: Given<'a>) -> CompactString {
+        let placeholder = self.format.texts.len().to_compact_string();
+        self.format.texts.push(given);
+        placeholder
     }
 
     /// Reads an element that has only a `TextId`, and returns the placeholder for its text.

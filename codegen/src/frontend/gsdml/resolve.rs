@@ -1,4 +1,7 @@
 //! Replaces the placeholders in names and descriptions with texts.
+//!
+//! Before the text list is read, a name in the IR is a placeholder: the number of a reference. A space and a suffix may
+//! follow the number.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -6,7 +9,6 @@ use std::sync::Arc;
 use compact_str::{format_compact, CompactString};
 
 use super::text_list::TextList;
-use super::text_references::TextReferences;
 use crate::collections::{HashMap, HashSet};
 use crate::diagnostics::{codes, Diagnostics};
 use crate::frontend::xml::Given;
@@ -84,7 +86,7 @@ fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>
 /// Replaces placeholders with the texts to which they refer.
 pub(super) struct Resolver<'a, 'd> {
     pub list: TextList<'a>,
-    references: TextReferences<'a>,
+    references: Vec<Given<'a>>,
     pub diagnostics: &'d mut Diagnostics,
     /// Texts with a suffix, by text identifier and suffix.
     suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
@@ -99,7 +101,7 @@ impl<'a, 'd> Resolver<'a, 'd> {
     /// Creates a resolver for a file of `length` bytes.
     pub fn new(
         list: TextList<'a>,
-        references: TextReferences<'a>,
+        references: Vec<Given<'a>>,
         length: usize,
         diagnostics: &'d mut Diagnostics,
     ) -> Self {

@@ -89,7 +89,7 @@ impl<'a> Reader<'a, '_> {
         submodule.ident = self.required_ident(parent, &ident, "SubmoduleIdentNumber");
         submodule.api = self.unsigned(&api, u32::MAX, "API number").unwrap_or(0);
         if !text.is_missing() {
-            submodule.name = self.format.texts.hold(text);
+            submodule.name = self.placeholder(text);
         }
         let mut info = Info::default();
         while let Some(tag) = self.child(parent)? {
@@ -155,7 +155,7 @@ impl<'a> Reader<'a, '_> {
             let [target, allowed, fixed, used] = reader.attributes(tag, names)?;
             let places = reader.places([allowed, fixed, used]);
             if reader.require(tag, &target, "SubmoduleItemTarget", "left out") {
-                reader.format.links.submodule(owner, target, places);
+                reader.format.links.submodules.push((owner, target, places));
             }
             reader.no_children(tag)
         })

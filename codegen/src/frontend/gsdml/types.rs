@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::data_type::{DataType, NumberType, PairType, StringType};
+use super::data_type::{DataType, NumberType, StringType};
 use super::links::unresolved;
 use crate::collections::HashMap;
 use crate::diagnostics::{codes, Diagnostics};
@@ -49,35 +49,6 @@ impl<'a> Types<'a> {
         let id = self.push(name, shape(), Some(bytes.saturating_mul(8)));
         self.named.insert((name, bytes), id);
         Type::Named(id)
-    }
-
-    /// Returns the type for a string with `bytes` bytes.
-    pub fn string(&mut self, string: StringType, bytes: u32) -> Type {
-        match string {
-            StringType::Visible => Type::VisibleString(Some(bytes)),
-            StringType::Octet => Type::OctetString(Some(bytes)),
-            StringType::Named(name) => self.named(name, bytes, || Shape::Alias(Type::OctetString(Some(bytes)))),
-        }
-    }
-
-    /// Returns the type for a number with a defined meaning.
-    pub fn number(&mut self, number: &NumberType) -> Type {
-        let base = number.base;
-        let bytes = base.bits().unwrap_or(0) / 8;
-        self.named(number.name, bytes, || match number.factor {
-            Some(factor) => Shape::Scaled { base, scale: Scale::Linear { factor, offset: 0.0 } },
-            None => Shape::Alias(base),
-        })
-    }
-
-    /// Returns a record type with two fields.
-    pub fn pair(&mut self, pair: &PairType) -> Type {
-        let bits = pair.first_bits();
-        self.named(pair.name, bits / 8 + 1, || {
-            let field =
-                |name: &str, ty, bits, bit_offset| Field { name: name.into(), sub_index: None, ty, bits, bit_offset };
-            Shape::Record(vec![field("value", pair.first, bits, 0), field(pair.suffix, pair.second, 8, bits)])
-        })
     }
 
     /// Returns the number of `ValueItem` elements that were read.
@@ -156,9 +127,23 @@ impl DataType {
         let bytes = self.bytes().or(length).unwrap_or(0);
         let ty = match self {
             DataType::Basic(ty) => ty,
-            DataType::String(string) => types.string(string, bytes),
-            DataType::Number(number) => types.number(number),
-            DataType::Pair(pair) => types.pair(pair),
+            DataType::String(StringType::Visible) => Type::VisibleString(Some(bytes)),
+            DataType::String(StringType::Octet) => Type::OctetString(Some(bytes)),
+            DataType::String(StringType::Named(name)) => {
+                types.named(name, bytes, || Shape::Alias(Type::OctetString(Some(bytes))))
+            }
+            DataType::Number(&NumberType { name, base, factor }) => types.named(name, bytes, || match factor {
+                Some(factor) => Shape::Scaled { base, scale: Scale::Linear { factor, offset: 0.0 } },
+                None => Shape::Alias(base),
+            }),
+            DataType::Pair(pair) => types.named(pair.name, bytes, || {
+                let field = |name: &str, ty, bits, bit_offset| {
+                    let name = name.into();
+                    Field { name, sub_index: None, ty, bits, bit_offset }
+                };
+                let bits = pair.first_bits();
+                Shape::Record(vec![field("value", pair.first, bits, 0), field(pair.suffix, pair.second, 8, bits)])
+            }),
             DataType::OctetsWithStatus | DataType::Trailer(_) => Type::OctetString(Some(bytes)),
             DataType::Bit | DataType::BitArea => Type::Boolean,
         };
