@@ -43,7 +43,7 @@ pub(super) fn build<'a>(
     objects.reverse();
     let mut fields = fields_of(types, raw, &objects);
     let missing_access = FactOrigins::by_rule(&[Fact::Access], Rule::MissingKey);
-    let mut builder = Builder { types, units, missing_access };
+    let mut builder = Builder { reader, types, units, missing_access };
     let mut groups: Vec<Group> = Vec::with_capacity(objects.len());
     while let Some(object) = objects.pop() {
         let fields = fields.pop().flatten();
@@ -51,17 +51,17 @@ pub(super) fn build<'a>(
             objects.shrink_to_fit();
         }
         let Some(index) = object.index else {
-            missing_index(reader, object.origin.span, "this object has no usable index");
+            missing_index(builder.reader, object.origin.span, "this object has no usable index");
             continue;
         };
         if let Some(first) = groups.last().filter(|first| first.index() == Some(index)) {
             let message = format!("object {} occurs twice", hex16(index));
             let found = codes::ESI_DUPLICATE_OBJECT.at(object.origin.span, message).label("ignored");
-            reader.diagnostics.push(found.note_at(first.origin.span, "this object is used"));
+            builder.reader.diagnostics.push(found.note_at(first.origin.span, "this object is used"));
             continue;
         }
         let sub_items = subs.get_mut(object.subs.clone()).unwrap_or_default();
-        groups.push(builder.object(reader, index, object, fields.as_deref(), sub_items));
+        groups.push(builder.object(index, object, fields.as_deref(), sub_items));
     }
     groups
 }
@@ -76,23 +76,24 @@ fn fields_of<'a>(
     objects.iter().map(|object| records.get(types.position(&object.ty.text)?)?.clone()).collect()
 }
 
-struct Builder<'b, 'a> {
+/// Builds the groups of a device or module from its objects.
+struct Builder<'b, 'a, 'r, 'd> {
+    reader: &'b mut Reader<'r, 'd>,
     types: &'b mut Types<'a>,
     units: &'b [(u32, CompactString)],
     /// Origins of an item whose access rights are not declared.
     missing_access: FactOrigins,
 }
 
-impl<'a> Builder<'_, 'a> {
+impl<'a> Builder<'_, 'a, '_, '_> {
     fn object(
         &mut self,
-        reader: &mut Reader<'_, '_>,
         index: u16,
         mut raw: RawObject<'a>,
         fields: Option<&ThinVec<RawField<'a>>>,
         subs: &mut [RawSub<'a>],
     ) -> Group {
-        let ty = self.object_type(reader, &raw);
+        let ty = self.object_type(&raw);
         let mut group = Group::object(index, ObjectCode::Var);
         (group.name, group.names, group.name_at) = (raw.name.name(), raw.name.others(), raw.name.span());
         group.documentation = raw.comment.documentation();
@@ -103,12 +104,12 @@ impl<'a> Builder<'_, 'a> {
         group.tool_flags = raw.tool_flags.take();
         group.extensions = std::mem::take(&mut raw.extensions);
         let code = match fields {
-            Some(fields) => self.record(reader, &mut group, &raw, ty, fields, subs),
+            Some(fields) => self.record(&mut group, &raw, ty, fields, subs),
             None if subs.is_empty() => {
-                group.items = vec![self.value(reader, &group, index, &raw, ty)];
+                group.items = vec![self.value(&group, index, &raw, ty)];
                 ObjectCode::Var
             }
-            None => self.untyped(reader, &mut group, &raw, subs),
+            None => self.untyped(&mut group, &raw, subs),
         };
         let code = match code {
             ObjectCode::Var if index < 0x1000 => ObjectCode::DefType,
@@ -116,22 +117,22 @@ impl<'a> Builder<'_, 'a> {
             code => code,
         };
         group.kind = GroupKind::Object { index, code, category: raw.flags.category };
-        self.access_given(reader, &mut group, &raw.flags);
+        self.access_given(&mut group, &raw.flags);
         group
     }
 
-    fn object_type(&mut self, reader: &mut Reader<'_, '_>, raw: &RawObject<'_>) -> Type {
+    fn object_type(&mut self, raw: &RawObject<'_>) -> Type {
         if raw.ty.is_empty() {
             let message = "this object has no type";
-            reader.report(&codes::UNRESOLVED_TYPE, raw.origin.span, message, "kept as raw bytes");
+            self.reader.report(&codes::UNRESOLVED_TYPE, raw.origin.span, message, "kept as raw bytes");
             return Type::Opaque(None);
         }
-        let ty = self.types.resolve(reader, &raw.ty);
+        let ty = self.types.resolve(self.reader, &raw.ty);
         let size = self.types.bits(ty);
         match (size, raw.bits) {
-            (Some(size), Some(bits)) if size != bits && reader.diagnostics.wants(&codes::BIT_SIZE) => {
+            (Some(size), Some(bits)) if size != bits && self.reader.diagnostics.wants(&codes::BIT_SIZE) => {
                 let message = format!("BitSize is {bits}, but the data type `{}` has {size} bits", brief(&raw.ty.text));
-                reader.report(&codes::BIT_SIZE, raw.bits_at, message, "the data type is used");
+                self.reader.report(&codes::BIT_SIZE, raw.bits_at, message, "the data type is used");
             }
             _ => {}
         }
@@ -139,7 +140,7 @@ impl<'a> Builder<'_, 'a> {
     }
 
     /// Builds the item of an object that has a single value.
-    fn value(&mut self, reader: &mut Reader<'_, '_>, group: &Group, index: u16, raw: &RawObject<'a>, ty: Type) -> Item {
+    fn value(&mut self, group: &Group, index: u16, raw: &RawObject<'a>, ty: Type) -> Item {
         let mut item = Item::new(Binding::coe(index, 0));
         item.name = group.name.clone();
         item.names = group.names.clone();
@@ -147,7 +148,7 @@ impl<'a> Builder<'_, 'a> {
         item.origin = raw.origin;
         (item.ty, item.at.ty) = (ty, raw.ty.span);
         self.flags(&mut item, &raw.flags, &raw.flags, None);
-        self.info(reader, &mut item, &raw.info, None);
+        self.info(&mut item, &raw.info, None);
         item
     }
 
@@ -155,15 +156,14 @@ impl<'a> Builder<'_, 'a> {
     /// object.
     fn record(
         &mut self,
-        reader: &mut Reader<'_, '_>,
         group: &mut Group,
         raw: &RawObject<'a>,
         ty: Type,
         fields: &[RawField<'a>],
         subs: &mut [RawSub<'a>],
     ) -> ObjectCode {
-        let entries = entries::of_object(reader, self.types, raw, ty, fields);
-        let mut matched = entries::match_up(reader, &entries, subs);
+        let entries = entries::of_object(self.reader, self.types, raw, ty, fields);
+        let mut matched = entries::match_up(self.reader, &entries, subs);
         let mut parts = array_default::split(self.types, &entries, &matched.of_entry, subs);
         group.items.reserve_exact(entries.len() + matched.extra.len());
         let of_object = raw.flags.weight();
@@ -171,18 +171,18 @@ impl<'a> Builder<'_, 'a> {
             let sub = matched.of_entry.get(position).copied().flatten().and_then(|at| subs.get_mut(at));
             let described = sub.is_some() || parts.contains_key(&position);
             let cost = Cost { items: usize::from(!described), bytes: entry.field.weight() + of_object };
-            if !reader.derive(cost, raw.origin.span) {
+            if !self.reader.derive(cost, raw.origin.span) {
                 break;
             }
             // The large struct is added to the list first and filled there, which avoids a copy.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
                 let part = parts.remove(&position).unwrap_or_default();
-                self.entry(reader, raw, entry, sub, part, item);
+                self.entry(raw, entry, sub, part, item);
             }
         }
         matched.extra.sort_unstable();
-        self.extra(reader, group, raw, entries.last(), &matched.extra, subs);
+        self.extra(group, raw, entries.last(), &matched.extra, subs);
         self.keep_whole(raw, group);
         let element = |entry: &Entry<'_, '_>| entry.element.is_some();
         match entries.split_first() {
@@ -215,7 +215,6 @@ impl<'a> Builder<'_, 'a> {
 
     fn entry(
         &mut self,
-        reader: &mut Reader<'_, '_>,
         raw: &RawObject<'a>,
         entry: &Entry<'_, 'a>,
         sub: Option<&mut RawSub<'a>>,
@@ -232,7 +231,7 @@ impl<'a> Builder<'_, 'a> {
                 item.extensions = std::mem::take(&mut sub.extensions);
                 let named = if sub.name.is_empty() { &field.name } else { &sub.name };
                 (item.name, item.at.name) = (named.compact(), named.span);
-                self.info(reader, item, &sub.info, Some(&field.info));
+                self.info(item, &sub.info, Some(&field.info));
             }
             None => {
                 item.origin = field.origin;
@@ -241,7 +240,7 @@ impl<'a> Builder<'_, 'a> {
                     Some(number) => format_compact!("{} {number}", field.name.text),
                     None => field.name.compact(),
                 };
-                self.info(reader, item, &part, Some(&field.info));
+                self.info(item, &part, Some(&field.info));
             }
         }
     }
@@ -251,7 +250,6 @@ impl<'a> Builder<'_, 'a> {
     /// become raw bytes.
     fn extra(
         &mut self,
-        reader: &mut Reader<'_, '_>,
         group: &mut Group,
         raw: &RawObject<'a>,
         last: Option<&Entry<'_, 'a>>,
@@ -263,67 +261,53 @@ impl<'a> Builder<'_, 'a> {
             let Some(sub) = subs.get_mut(at) else { continue };
             let Ok(sub_index) = u8::try_from(next) else {
                 let message = "an object has at most 255 sub-indices after sub-index 0";
-                reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, "left out");
+                self.reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, "left out");
                 continue;
             };
             let message = format!("`{}` is not a sub-item of the data type", brief(&sub.name.text));
             let label = format!("read as sub-index {}", hex8(sub_index));
-            reader.report(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message, label);
+            self.reader.report(&codes::SUB_ITEM_MISMATCH, sub.name.span.or(sub.origin.span), message, label);
             let ty = last.filter(|entry| entry.sub_index > 0).map_or(Type::Opaque(None), |entry| entry.ty);
             let flags = last.filter(|entry| entry.sub_index > 0).map_or(&raw.flags, |entry| &entry.field.flags);
-            if !reader.derive(Cost::text(flags.weight() + raw.flags.weight()), sub.origin.span) {
+            if !self.reader.derive(Cost::text(flags.weight() + raw.flags.weight()), sub.origin.span) {
                 break;
             }
-            group.items.push(self.plain(reader, raw, sub_index, ty, flags, sub));
+            group.items.push(self.plain(raw, sub_index, ty, flags, sub));
             next += 1;
         }
     }
 
     /// Adds the sub-items of an object whose type is not a record. The sub-indices follow the order of the file.
-    fn untyped(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        group: &mut Group,
-        raw: &RawObject<'a>,
-        subs: &mut [RawSub<'a>],
-    ) -> ObjectCode {
+    fn untyped(&mut self, group: &mut Group, raw: &RawObject<'a>, subs: &mut [RawSub<'a>]) -> ObjectCode {
         let message = format!("the object has sub-items, but its type `{}` has none", brief(&raw.ty.text));
         let label = "numbered from 0 and kept as raw bytes";
-        reader.report(&codes::SUB_ITEM_MISMATCH, raw.ty.span.or(raw.origin.span), message, label);
+        self.reader.report(&codes::SUB_ITEM_MISMATCH, raw.ty.span.or(raw.origin.span), message, label);
         for (at, sub) in subs.iter_mut().enumerate() {
             let Ok(sub_index) = u8::try_from(at) else {
                 let message = "an object has at most 255 sub-indices after sub-index 0";
                 let label = "this and all later sub-items are left out";
-                reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, label);
+                self.reader.report(&codes::SUB_INDEX_RANGE, sub.origin.span, message, label);
                 break;
             };
-            if !reader.derive(Cost::text(raw.flags.weight()), sub.origin.span) {
+            if !self.reader.derive(Cost::text(raw.flags.weight()), sub.origin.span) {
                 break;
             }
             // Sub-index 0 contains the number of the other sub-indices.
             let ty = if sub_index == 0 { Type::Unsigned(8) } else { Type::Opaque(None) };
-            group.items.push(self.plain(reader, raw, sub_index, ty, &raw.flags, sub));
+            group.items.push(self.plain(raw, sub_index, ty, &raw.flags, sub));
         }
         self.keep_whole(raw, group);
         ObjectCode::Record
     }
 
     /// Builds the item of a sub-item that the data type does not define.
-    fn plain(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        raw: &RawObject<'a>,
-        sub_index: u8,
-        ty: Type,
-        flags: &Flags,
-        sub: &mut RawSub<'a>,
-    ) -> Item {
+    fn plain(&mut self, raw: &RawObject<'a>, sub_index: u8, ty: Type, flags: &Flags, sub: &mut RawSub<'a>) -> Item {
         let mut item = Item::new(Binding::coe(raw.index.unwrap_or(0), sub_index));
         (item.name, item.at.name, item.origin) = (sub.name.compact(), sub.name.span, sub.origin);
         item.ty = ty;
         item.extensions = std::mem::take(&mut sub.extensions);
         self.flags(&mut item, flags, &raw.flags, Some(sub_index));
-        self.info(reader, &mut item, &sub.info, None);
+        self.info(&mut item, &sub.info, None);
         item
     }
 
@@ -341,7 +325,7 @@ impl<'a> Builder<'_, 'a> {
 
     /// Sets the default value, limits, unit and display name of an item. Values of the object take precedence over
     /// values of the data type.
-    fn info(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, raw: &RawInfo<'a>, of_type: Option<&RawInfo<'a>>) {
+    fn info(&mut self, item: &mut Item, raw: &RawInfo<'a>, of_type: Option<&RawInfo<'a>>) {
         let of_type = of_type.filter(|info| !info.is_empty());
         if raw.is_empty() && of_type.is_none() {
             return;
@@ -349,21 +333,21 @@ impl<'a> Builder<'_, 'a> {
         let base = self.types.underlying(item.ty);
         let default = raw.default.as_ref().or_else(|| of_type.and_then(|info| info.default.as_ref()));
         if let Some(raw) = default {
-            item.default = value::convert(reader, raw, base, Role::Default);
+            item.default = value::convert(self.reader, raw, base, Role::Default);
             item.at.default = raw.span;
         }
         let more = [raw.more.as_deref(), of_type.and_then(|info| info.more.as_deref())];
         let more = more.into_iter().flatten();
         if let Some(raw) = more.clone().find_map(|more| more.min.as_ref()) {
-            item.limits.low = value::convert(reader, raw, base, Role::Limit);
+            item.limits.low = value::convert(self.reader, raw, base, Role::Limit);
             item.at.others.low = raw.span;
         }
         if let Some(raw) = more.clone().find_map(|more| more.max.as_ref()) {
-            item.limits.high = value::convert(reader, raw, base, Role::Limit);
+            item.limits.high = value::convert(self.reader, raw, base, Role::Limit);
             item.at.others.high = raw.span;
         }
         if let Some(given) = more.map(|more| &more.unit).find(|unit| !unit.is_empty()) {
-            let unit = self.unit(reader, given);
+            let unit = self.unit(given);
             item.quantity = Some(Box::new(Quantity { unit, ..Quantity::default() }));
         }
         let display = [raw.display.as_deref(), of_type.and_then(|info| info.display.as_deref())];
@@ -374,15 +358,15 @@ impl<'a> Builder<'_, 'a> {
         }
     }
 
-    fn unit(&self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> CompactString {
+    fn unit(&mut self, given: &Given<'_>) -> CompactString {
         let number = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
         match number {
             // A unit symbol that the file defines may be long, so the budget must allow each copy.
             Some(number) => unit::text(number, self.units)
-                .filter(|text| reader.derive(Cost::text(text.len()), given.span))
+                .filter(|text| self.reader.derive(Cost::text(text.len()), given.span))
                 .unwrap_or_else(|| given.compact()),
             None => {
-                reader.bad(given, "unit number", "kept unchanged");
+                self.reader.bad(given, "unit number", "kept unchanged");
                 given.compact()
             }
         }
@@ -390,7 +374,7 @@ impl<'a> Builder<'_, 'a> {
 
     /// Reports an object without declared access rights if at least one of its items declares none either. Records for each such
     /// item that a rule of the compiler makes it read-only.
-    fn access_given(&self, reader: &mut Reader<'_, '_>, group: &mut Group, flags: &Flags) {
+    fn access_given(&mut self, group: &mut Group, flags: &Flags) {
         if flags.access.is_some() {
             return;
         }
@@ -399,14 +383,14 @@ impl<'a> Builder<'_, 'a> {
             silent += 1;
             item.origins.clone_from(&self.missing_access);
         }
-        if silent > 0 && reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
+        if silent > 0 && self.reader.diagnostics.wants(&codes::ESI_MISSING_ACCESS) {
             let message = "the file does not declare the access rights of this object";
             let label = if silent == group.items.len() {
                 "kept as read-only".to_owned()
             } else {
                 format!("{silent} of {} sub-indices kept as read-only", group.items.len())
             };
-            reader.report(&codes::ESI_MISSING_ACCESS, group.origin.span, message, label);
+            self.reader.report(&codes::ESI_MISSING_ACCESS, group.origin.span, message, label);
         }
     }
 }
