@@ -3,70 +3,56 @@
 use crate::xml::Xml;
 use lexibus_codegen::ir::CompactString;
 
-/// An element and its allowed child elements.
-pub(super) struct Element {
-    pub(super) name: &'static str,
-    children: &'static [Element],
-}
+/// Name of an element, and its allowed child elements.
+pub(super) struct Element(&'static str, &'static [Element]);
 
-const fn leaf(name: &'static str) -> Element {
-    Element { name, children: &[] }
-}
-
-const fn element(name: &'static str, children: &'static [Element]) -> Element {
-    Element { name, children }
-}
-
-static NAMED: [Element; 2] = [leaf("Name"), leaf("InfoText")];
-static SLOT_GROUP: [Element; 1] = [element("SlotGroup", &NAMED)];
-static MAU_TYPE: [Element; 1] = [leaf("MAUTypeItem")];
-static TIMING: [Element; 2] = [leaf("TimingProperties"), leaf("RT_Class3TimingProperties")];
-static SIGNAL: [Element; 1] = [leaf("DCP_FlashOnceSignalUnit")];
-static INTERCONNECTION: [Element; 1] = [leaf("Interconnection")];
-static OBSERVER: [Element; 1] = [leaf("Observer")];
-static ENERGY_MODE: [Element; 1] = [leaf("EnergySavingModeItem")];
-static MEASUREMENT_VALUE: [Element; 1] = [leaf("MeasurementValue")];
-static MEASUREMENT: [Element; 1] = [element("MeasurementItem", &MEASUREMENT_VALUE)];
-static ENERGY: [Element; 2] = [element("EnergySavingModeList", &ENERGY_MODE), element("MeasurementList", &MEASUREMENT)];
-
-pub(super) static CERTIFICATION: Element = leaf("CertificationInfo");
-pub(super) static ASSETS: Element = leaf("AssetManagement");
-pub(super) static REDUNDANCY: Element = leaf("SystemRedundancy");
-pub(super) static SLOT_GROUPS: Element = element("SlotGroups", &SLOT_GROUP);
-pub(super) static FIELDBUS_SLOTS: Element = leaf("FieldbusIntegrationSlots");
-pub(super) static RELATIONS: Element = element("ApplicationRelations", &TIMING);
-pub(super) static MAU_TYPES: Element = element("MAUTypeList", &MAU_TYPE);
-pub(super) static FAMILY: Element = leaf("Family");
+pub(super) static CERTIFICATION: Element = Element("CertificationInfo", &[]);
+pub(super) static ASSETS: Element = Element("AssetManagement", &[]);
+pub(super) static REDUNDANCY: Element = Element("SystemRedundancy", &[]);
+pub(super) static SLOT_GROUPS: Element =
+    Element("SlotGroups", &[Element("SlotGroup", &[Element("Name", &[]), Element("InfoText", &[])])]);
+pub(super) static FIELDBUS_SLOTS: Element = Element("FieldbusIntegrationSlots", &[]);
+pub(super) static RELATIONS: Element =
+    Element("ApplicationRelations", &[Element("TimingProperties", &[]), Element("RT_Class3TimingProperties", &[])]);
+pub(super) static MAU_TYPES: Element = Element("MAUTypeList", &[Element("MAUTypeItem", &[])]);
+pub(super) static FAMILY: Element = Element("Family", &[]);
 
 /// The child element of an interface before the interface's records. [`OF_INTERFACE`], [`RELATIONS`] and
 /// [`MEDIA_REDUNDANCY`] are the child elements after the records.
-pub(super) static GENERAL: Element = element("General", &SIGNAL);
-pub(super) static OF_INTERFACE: [Element; 4] =
-    [leaf("RT_Class3Properties"), leaf("SynchronisationMode"), leaf("TimeSynchronisation"), leaf("ReportingSystem")];
-pub(super) static MEDIA_REDUNDANCY: Element = element("MediaRedundancy", &INTERCONNECTION);
+pub(super) static GENERAL: Element = Element("General", &[Element("DCP_FlashOnceSignalUnit", &[])]);
+pub(super) static OF_INTERFACE: [Element; 4] = [
+    Element("RT_Class3Properties", &[]),
+    Element("SynchronisationMode", &[]),
+    Element("TimeSynchronisation", &[]),
+    Element("ReportingSystem", &[]),
+];
+pub(super) static MEDIA_REDUNDANCY: Element = Element("MediaRedundancy", &[Element("Interconnection", &[])]);
 
 /// The child elements of a virtual or pluggable submodule after the submodule's pictures.
 pub(super) static OF_SUBMODULE: [Element; 4] = [
-    leaf("IsochroneMode"),
-    leaf("SlotCluster"),
-    element("PROFIenergy", &ENERGY),
-    element("ReportingSystemEvents", &OBSERVER),
+    Element("IsochroneMode", &[]),
+    Element("SlotCluster", &[]),
+    Element(
+        "PROFIenergy",
+        &[
+            Element("EnergySavingModeList", &[Element("EnergySavingModeItem", &[])]),
+            Element("MeasurementList", &[Element("MeasurementItem", &[Element("MeasurementValue", &[])])]),
+        ],
+    ),
+    Element("ReportingSystemEvents", &[Element("Observer", &[])]),
 ];
 
 pub(super) type Attributes = [(CompactString, CompactString)];
 
 impl Element {
-    fn has(&self, name: &str) -> bool {
-        self.name == name || self.children.iter().any(|child| child.has(name))
-    }
-
-    /// Returns the element names on the path from this element to the descendant `name`.
+    /// Returns the element names on the path from this element to the element `name`, which is this element or a descendant.
     fn path(&self, name: &str) -> Option<Vec<&'static str>> {
-        if self.name == name {
-            return Some(vec![self.name]);
+        let Element(first, children) = *self;
+        if first == name {
+            return Some(vec![first]);
         }
-        let below = self.children.iter().find_map(|child| child.path(name))?;
-        Some(std::iter::once(self.name).chain(below).collect())
+        let below = children.iter().find_map(|child| child.path(name))?;
+        Some(std::iter::once(first).chain(below).collect())
     }
 
     /// Writes the element once for each of its occurrences in `attributes`.
@@ -137,7 +123,7 @@ pub(super) fn is_of_element(key: &str) -> bool {
     let roots = [&CERTIFICATION, &ASSETS, &REDUNDANCY, &SLOT_GROUPS, &FIELDBUS_SLOTS, &RELATIONS, &MAU_TYPES, &FAMILY];
     let all = roots.into_iter().chain([&GENERAL, &MEDIA_REDUNDANCY]).chain(&OF_INTERFACE).chain(&OF_SUBMODULE);
     let name = key.split_once('@').map_or(key, |(name, _)| name);
-    key.contains(['@', '/']) || all.into_iter().any(|root| root.has(name))
+    key.contains(['@', '/']) || all.into_iter().any(|root| root.path(name).is_some())
 }
 
 /// Attributes of ModuleInfo.
