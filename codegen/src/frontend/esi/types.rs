@@ -539,15 +539,10 @@ fn basic_or_opaque(diagnostics: &mut Diagnostics, name: &Given<'_>, found: Optio
             ty
         }
         _ => {
-            unresolved(diagnostics, name);
+            let message = format!("the data type `{}` is not defined", brief(&name.text));
+            let found = codes::UNRESOLVED_TYPE.at(name.span, message).label("kept as raw bytes");
+            diagnostics.push(found.help("define the type in DataTypes, or use the name of a basic type such as UINT"));
             Type::Opaque(None)
         }
     }
-}
-
-/// Reports a type name that has no definition.
-fn unresolved(diagnostics: &mut Diagnostics, name: &Given<'_>) {
-    let message = format!("the data type `{}` is not defined", brief(&name.text));
-    let found = codes::UNRESOLVED_TYPE.at(name.span, message).label("kept as raw bytes");
-    diagnostics.push(found.help("define the type in DataTypes, or use the name of a basic type such as UINT"));
 }
