@@ -102,21 +102,13 @@ pub(super) struct Unit<'a> {
 pub(super) struct View<'p, 'a> {
     /// Position of the parameter in [`Application::parameters`].
     pub position: Option<usize>,
-    parameter: Option<&'p Parameter<'a>>,
+    pub parameter: Option<&'p Parameter<'a>>,
     template: Option<&'p Parameter<'a>>,
 }
 
 impl<'p, 'a> View<'p, 'a> {
     /// View for an object without a parameter.
     pub const NONE: Self = View { position: None, parameter: None, template: None };
-
-    pub fn exists(&self) -> bool {
-        self.parameter.is_some()
-    }
-
-    pub fn parameter(&self) -> Option<&'p Parameter<'a>> {
-        self.parameter
-    }
 
     /// Returns a fact of the parameter, or of the template if the parameter does not declare the fact.
     pub fn find<T>(&self, fact: impl Fn(&'p Parameter<'a>) -> Option<T>) -> Option<T> {

@@ -1,7 +1,7 @@
 //! Reads a file: its profiles, and the device that the profiles describe.
 
 use super::application::Application;
-use super::object_list::ObjectList;
+use super::object_list::Positions;
 use super::reader::{Reader, Xdd};
 use super::{identity, modules, network, objects, process, types};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -31,7 +31,7 @@ struct Profiles<'a> {
     device: Device,
     canopen: CanOpenSettings,
     application: Application<'a>,
-    objects: ObjectList,
+    objects: Positions,
     /// True if the file contains a CANopen profile.
     canopen_seen: bool,
 }
@@ -42,7 +42,7 @@ fn container<'a>(reader: &mut Reader<'a, '_>) -> Read<Device> {
         device: Device { origin: reader.origin(&root), ..Device::default() },
         canopen: CanOpenSettings::default(),
         application: Application::default(),
-        objects: ObjectList::default(),
+        objects: Positions::new(),
         canopen_seen: false,
     };
     match root.name {

@@ -116,7 +116,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
             item.at.access = given.span;
             return object::access(&given.text, given.span, self.reader.diagnostics);
         }
-        let of_parent = parent.filter(|_| !view.exists()).map(|(parent, _)| parent);
+        let of_parent = parent.filter(|_| view.parameter.is_none()).map(|(parent, _)| parent);
         let given = view.get(ParameterKey::Access);
         if let Some(given) = given.or_else(|| of_parent?.get(ParameterKey::Access)) {
             item.at.access = given.span;
@@ -125,7 +125,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         item.at.access = raw.origin.span;
         item.origins.set(Fact::Access, Some(FactOrigin::Rule(Rule::MissingKey)));
         // The CiA 311 schema defines `read` as the default access of a parameter, but no default access of a variable.
-        let is_read = view.parameter().is_some_and(|parameter| parameter.field.is_none());
+        let is_read = view.parameter.is_some_and(|parameter| parameter.field.is_none());
         match code {
             ObjectCode::Domain if !is_read => return Access::ReadWrite,
             ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}

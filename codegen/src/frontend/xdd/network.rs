@@ -3,7 +3,7 @@
 use compact_str::format_compact;
 
 use super::identity;
-use super::object_list::ObjectList;
+use super::object_list::{self, Positions};
 use super::reader::Reader;
 use crate::frontend::canopen::network;
 use crate::frontend::xml::{Given, Read};
@@ -17,14 +17,14 @@ pub(super) fn application_layers<'a>(
     parent: &Tag<'a>,
     device: &mut Device,
     canopen: &mut CanOpenSettings,
-    objects: &mut ObjectList,
+    objects: &mut Positions,
 ) -> Read<()> {
     let [class, entity] = reader.attributes(parent, ["conformanceClass", "communicationEntityType"])?;
     reader.note("conformanceClass", &class);
     reader.note("communicationEntityType", &entity);
     while let Some(tag) = reader.child(parent)? {
         match tag.name {
-            "CANopenObjectList" => objects.read(reader, &tag)?,
+            "CANopenObjectList" => object_list::read(reader, &tag, objects)?,
             "dummyUsage" => dummy_usage(reader, &tag, canopen)?,
             "dynamicChannels" => dynamic_channels(reader, &tag, canopen)?,
             "identity" => identity::read(reader, &tag, device)?,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::application::{Application, ParameterKey, View};
 use super::attributes::{keys, Attributes};
 use super::number::integer;
-use super::object_list::{missing_index, ObjectList};
+use super::object_list::{missing_index, Positions};
 use super::reader::Reader;
 use crate::diagnostics::codes;
 use crate::frontend::canopen::number;
@@ -22,10 +22,9 @@ use crate::syntax::xml::{Cursor, Tag};
 pub(super) fn build<'a>(
     reader: &mut Reader<'a, '_>,
     application: &Application<'a>,
-    list: ObjectList,
+    mut positions: Positions,
     device: &mut Device,
 ) -> Read<()> {
-    let ObjectList(mut positions) = list;
     positions.sort_by_key(|&(index, _)| index);
     let mut builder = Builder {
         copies_left: reader.cursor.text().len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
@@ -332,7 +331,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 
     /// Sets the sub-index of a structure field to that of the sub-object that refers to the field.
     fn note_field(&mut self, view: &View<'p, 'a>, sub: u8) {
-        let Some((structure, field)) = view.parameter().and_then(|parameter| parameter.field) else { return };
+        let Some((structure, field)) = view.parameter.and_then(|parameter| parameter.field) else { return };
         if let Some(Shape::Record(fields)) = self.types.get_mut(structure).map(|def| &mut def.shape) {
             if let Some(field) = fields.get_mut(field) {
                 field.sub_index = Some(u16::from(sub));
