@@ -1,24 +1,17 @@
 //! Devices with several axes: the static `AXES`, from which the runtime calculates the object addresses of each axis.
 
-use super::code::{Data, Doc};
+use super::code::{Data, Declaration, Doc};
 use super::docs;
 use crate::ir::{AxisRange, AxisRule, AxisStep, Device};
 
-/// The axes of a multi-axis device, ready to be printed.
-pub(super) struct AxesModel {
-    /// A phrase ` of …, …` with the names of the device models that have several axes. The phrase is empty if all
-    /// models of the device have several axes.
-    pub models: String,
-    /// Value of the static `AXES`.
-    pub constant: Doc,
-}
-
-/// Returns the axes of a device with more than one axis.
-pub(super) fn model(device: &Device) -> Option<AxesModel> {
+/// Returns the static `AXES` of a device with more than one axis. Also returns a phrase ` of …, …` with the names of the
+/// device models that have several axes. The phrase is empty if all models of the device have several axes.
+pub(super) fn model(device: &Device) -> Option<(Declaration, String)> {
     let rule = device.axes.as_ref().filter(|rule| rule.axes > 1)?;
     let names: Vec<String> = rule.models.iter().map(|name| docs::escape(name)).collect();
     let models = if names.is_empty() { String::new() } else { format!(" of {}", names.join(", ")) };
-    Some(AxesModel { models, constant: axes(device, rule) })
+    let docs = format!("Number of axes{models}, and the rules for the addresses of their objects.");
+    Some((Declaration::new([docs], "static AXES: rt::Axes", axes(device, rule)), models))
 }
 
 fn axes(device: &Device, rule: &AxisRule) -> Doc {

@@ -2,28 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::code::{seq, Data, Doc};
+use super::code::{seq, Data, Declaration, Doc};
 use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
-
-/// A constant for a fact about a bus or for a composite number, ready to be printed.
-pub(super) struct FactModel {
-    pub docs: String,
-    pub code: Doc,
-}
 
 /// Names of the bus constants in lower case. Other constants of the module must not have these names.
 pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
-pub(super) fn models(device: &Device) -> Vec<FactModel> {
-    let mut facts = Vec::new();
-    if let Some((first, last)) = device.node_ids {
-        facts.push(FactModel {
-            docs: "Node-ID range of the device.".to_owned(),
-            code: seq!["pub const NODE_IDS: core::ops::RangeInclusive<u8> = ", first, "..=", last, ";"],
-        });
-    }
-    facts.extend(modbus(device));
-    facts
+pub(super) fn models(device: &Device) -> impl Iterator<Item = Declaration> {
+    let node_ids = device.node_ids.map(|(first, last)| {
+        let start = "const NODE_IDS: core::ops::RangeInclusive<u8>";
+        Declaration::new(["Node-ID range of the device."], start, seq![first, "..=", last])
+    });
+    node_ids.into_iter().chain(modbus(device))
 }
 
 /// For each Modbus table: its field in `rt::modbus::Limits`, the constant with its standard limits, and the maximum
@@ -36,7 +26,7 @@ const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
 ];
 
 /// Returns the constant `MODBUS`. Returns `None` if the device has no registers and declares no Modbus limits.
-fn modbus(device: &Device) -> Option<FactModel> {
+fn modbus(device: &Device) -> Option<Declaration> {
     let has_registers = items(device).any(|item| registers(item).next().is_some());
     if !has_registers && device.modbus.is_empty() {
         return None;
@@ -51,11 +41,8 @@ fn modbus(device: &Device) -> Option<FactModel> {
         (field, data)
     };
     let data = Data::fields("rt::modbus::Limits", TABLES.map(table));
-    Some(FactModel {
-        docs: "Modbus requests that the device supports, and the registers that one request can read together."
-            .to_owned(),
-        code: seq!["pub const MODBUS: rt::modbus::Limits = ", data, ";"],
-    })
+    let docs = "Modbus requests that the device supports, and the registers that one request can read together.";
+    Some(Declaration::new([docs], "const MODBUS: rt::modbus::Limits", data))
 }
 
 fn limits(stated: Option<&ModbusTable>, max_read: u16, max_write: u16, spans: Vec<Doc>) -> Doc {

@@ -1,18 +1,17 @@
 //! Generates a constant for each composite number. With this constant, a program combines the digits in several items
 //! into one number, and splits a number into these digits.
 
-use super::bus_facts::FactModel;
-use super::code::{seq, Data, Doc};
+use super::code::{seq, Data, Declaration, Doc};
 use super::context::Context;
 use super::docs;
 use super::links::DocModule;
 use crate::ir::{Composite, ItemRef};
 
-pub(super) fn models(context: &Context<'_>) -> Vec<FactModel> {
-    context.names.composites.iter().map(|named| model(context, named.composite, &named.name)).collect()
+pub(super) fn models<'c>(context: &'c Context<'_>) -> impl Iterator<Item = Declaration> + 'c {
+    context.names.composites.iter().map(|named| model(context, named.composite, &named.name))
 }
 
-fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel {
+fn model(context: &Context<'_>, composite: &Composite, name: &str) -> Declaration {
     let link = |item: &ItemRef| context.link(item, DocModule::TOP).unwrap_or_else(|| docs::escape(item));
     let parts: Vec<String> = composite.parts.iter().map(link).collect();
     let mut sentences = vec![docs::sentence(&format!(
@@ -36,6 +35,6 @@ fn model(context: &Context<'_>, composite: &Composite, name: &str) -> FactModel 
         None => Data::call("rt::Composite::new", vec![base]),
         Some((_, negative)) => Data::call("rt::Composite::signed", vec![base, Doc::from(negative.to_string())]),
     };
-    let code = seq!["pub const ", name, ": rt::Composite<", composite.parts.len(), "> = ", value, ";"];
-    FactModel { docs: sentences.join(" "), code }
+    let start = seq!["const ", name, ": rt::Composite<", composite.parts.len(), ">"];
+    Declaration::new([sentences.join(" ")], start, value)
 }

@@ -123,8 +123,7 @@ impl Device<'_> {
             };
             self.is_new(sections, &[&pdo.name], in_types(pdo.type_names()), &write)
         });
-        let Some(ethercat) = &mut model.ethercat else { return };
-        ethercat.images.retain(|image| {
+        model.images.retain(|image| {
             let used = image.fields.iter().map(|field| (Section::Pdo, field.pdo.as_str()));
             let names = [image.name.clone(), image.view_name()];
             self.is_new(&[Section::Image], &names.each_ref().map(String::as_str), used, &|code| {

@@ -1,6 +1,6 @@
 //! Models of a device: their constants, and items with a different range or initial value.
 
-use super::code::{list, Doc};
+use super::code::{call, list, seq, Declaration, Stop};
 use super::constructor::Arguments;
 use super::context::Context;
 use super::docs;
@@ -16,8 +16,7 @@ use crate::names::{self, Case};
 pub(super) struct DeviceModel {
     pub name: String,
     pub docs: Vec<String>,
-    /// Name, documentation and value of each constant.
-    pub constants: Vec<(String, String, String)>,
+    pub constants: Vec<Declaration>,
     pub items: Vec<ModelItem>,
 }
 
@@ -30,14 +29,9 @@ impl DeviceModel {
 
 /// A handle for one model of the device, ready to be printed.
 pub(super) struct ModelItem {
-    pub name: String,
-    pub docs: String,
-    /// Type of the handle, as written in the device's module.
-    pub ty: Doc,
+    pub constant: Declaration,
     /// True if the value has the type of an enumeration or bit field of the device.
-    pub is_named: bool,
-    pub range: Doc,
-    pub initial: Doc,
+    is_named: bool,
 }
 
 /// Returns the models that have constants, or items that differ from those of other models. Items of objects with
@@ -76,26 +70,15 @@ fn model_item(context: &Context<'_>, object: &ObjectModel, model: &str) -> Optio
     facts.extend(docs::limits(&on_model));
     let shown = |value: &Value| docs::WORDS.of_item(&on_model, value, &docs::value);
     facts.extend(on_model.default.as_ref().map(|value| format!("default {}", shown(value))));
-    Some(ModelItem {
-        name: handle.constant.clone(),
-        docs: format!(
-            "{}: {}. The handle for all models is [`objects::{}`].",
-            docs::escape(&item.name),
-            facts.join(", "),
-            handle.constant
-        ),
-        ty: list(&format!("objects::{}<", handle.access), &handle.arguments_at_top, ">"),
-        is_named: ty.named.is_some(),
-        range: range.clone(),
-        initial: initial.clone(),
-    })
+    let (name, title) = (&handle.constant, docs::escape(&item.name));
+    let docs = format!("{title}: {}. The handle for all models is [`objects::{name}`].", facts.join(", "));
+    let path = list(&format!("objects::{}<", handle.access), &handle.arguments_at_top, ">");
+    let value = call!("rt::Item::of_model", seq!["objects::", name], range, initial);
+    let constant = Declaration::new([docs], seq!["const ", name, ": ", path], seq![Stop, value]);
+    Some(ModelItem { constant, is_named: ty.named.is_some() })
 }
 
-fn constants(
-    device: &Device,
-    model: &str,
-    stated: &[(crate::ir::CompactString, Value)],
-) -> Vec<(String, String, String)> {
+fn constants(device: &Device, model: &str, stated: &[(crate::ir::CompactString, Value)]) -> Vec<Declaration> {
     let given =
         device.given.iter().flat_map(|number| number.models.iter().map(move |(name, value)| (number, name, value)));
     let given = given.filter(|(_, name, _)| *name == model);
@@ -105,7 +88,8 @@ fn constants(
     let names = names::unique(name_requests, &[], Case::Snake);
     let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
         let real = literal::real(value.as_real()?, 64)?;
-        Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))
+        let docs = docs::sentence(&(docs::escape(name) + &unit));
+        Some(Declaration::new([docs], seq!["const ", constant.to_ascii_uppercase(), ": f64"], real))
     };
     all.into_iter().zip(names).filter_map(constant).collect()
 }

@@ -1,9 +1,9 @@
 //! The model of a device or module: plain data, ready to be printed.
 
-use super::axes::{self, AxesModel};
-use super::bus_facts::{self, FactModel};
+use super::axes;
+use super::bus_facts;
 use super::cia402::Cia402Model;
-use super::code::Doc;
+use super::code::{seq, Declaration, Doc};
 use super::code_table::{self, CodeTableModel};
 use super::composite;
 use super::configuration::{self, ConfigurationModel};
@@ -12,11 +12,11 @@ use super::context::Context;
 use super::device_models::{self, DeviceModel};
 use super::device_names;
 use super::docs;
-use super::ethercat::{self, EtherCatModel, ModulePaths};
+use super::ethercat::{self, ImageModel, ModulePaths};
 use super::example;
 use super::given::{self, GivenModel};
 use super::handle::{self, Alias};
-use super::identity::IdentityModel;
+use super::identity;
 use super::links::Links;
 use super::literal;
 use super::located::Located;
@@ -30,13 +30,13 @@ use super::naming::Names;
 use super::objects::{self, ObjectModel};
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
-use super::procedure::{self, ProcedureModel};
+use super::procedure;
 use super::reexport::Reexport;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table;
 use super::walk::{self, WalkModel};
-use super::window_model::{self, WindowModel};
+use super::window_model;
 use crate::ir::{Device, FileInfo, Module};
 
 /// Determines the addresses, names and links that the lowering needs.
@@ -54,8 +54,9 @@ pub(super) struct Model {
     pub title: String,
     /// Example at the beginning of the documentation of the device's type.
     pub example: Vec<String>,
-    /// Identity of the device. `None` for a module of a modular device.
-    pub identity: Option<IdentityModel>,
+    /// Constants and statics at the start of the module: identity, node-ID, facts about the buses, composite numbers,
+    /// EtherCAT description and axes.
+    pub constants: Vec<Declaration>,
     /// True if the device's type has accessor methods.
     pub has_accessors: bool,
     /// Default location type of the handles.
@@ -67,7 +68,7 @@ pub(super) struct Model {
     /// Functions that create the locations of several items: name, parameters, return type and body.
     pub makers: Vec<(String, Vec<String>, String, Doc)>,
     /// Windows through which some items are accessed.
-    pub windows: Vec<WindowModel>,
+    pub windows: Vec<Declaration>,
     /// Two noun phrases for items with handles: one to follow "every", and one to follow an adjective.
     pub handles: [&'static str; 2],
     pub types: Types,
@@ -77,8 +78,9 @@ pub(super) struct Model {
     pub cia402: Option<Cia402Model>,
     pub code_tables: Vec<CodeTableModel>,
     /// Procedures that consist only of object writes.
-    pub procedures: Vec<ProcedureModel>,
-    pub axes: Option<AxesModel>,
+    pub procedures: Vec<Declaration>,
+    /// Names of the device models that have several axes, as a phrase. `None` if the device has a single axis.
+    pub axes: Option<String>,
     /// Constants and items that differ between the models of the device.
     pub models: Vec<DeviceModel>,
     /// Constants of the machine that are not stored in the device, and the unit conversions that depend on them.
@@ -86,11 +88,8 @@ pub(super) struct Model {
     /// Message protocol with requests and replies.
     #[cfg(feature = "messages")]
     pub protocol: Option<ProtocolModel>,
-    pub node_id: Option<u8>,
     /// Configured values of a DCF, XDC or network file.
     pub configuration: Option<ConfigurationModel>,
-    /// Constants for Modbus, for the node-ID range, and for composite numbers.
-    pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
@@ -101,9 +100,8 @@ pub(super) struct Model {
     pub remappable: Vec<RemappableModel>,
     /// True if PDOs have views within a process image.
     pub has_views: bool,
-    pub ethercat: Option<EtherCatModel>,
-    /// Value of the static `MODULE`. `None` for a device.
-    pub module: Option<Doc>,
+    /// Default process images on EtherCAT.
+    pub images: Vec<ImageModel>,
     /// Rows of the static table.
     pub table: Option<Vec<Doc>>,
     pub table_feature: Option<String>,
@@ -127,18 +125,32 @@ impl Model {
         model.example = example::lines(&context, &device_name, &model.walks);
         model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
-        model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.procedures = procedure::models(&context, device);
         model.models = device_models::models(&context, device, &model.objects);
         model.given = given::model(&context, device, options);
-        model.ethercat = EtherCatModel::new(device, &model.pdos, modules);
         model.code_tables = code_table::models(&context, device, options);
-        model.axes = axes::model(device);
-        model.bus_facts = bus_facts::models(device);
-        model.bus_facts.extend(composite::models(&context));
         model.configuration = configuration::model(device, options);
-        model.node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id);
+        model.add_constants(&context, device, modules);
         model
+    }
+
+    fn add_constants(&mut self, context: &Context<'_>, device: &Device, modules: &ModulePaths) {
+        let identity = (!device.dictionary_only).then(|| identity::constant(device, &self.title));
+        let node_id = device.commissioning.as_ref().and_then(|commissioning| commissioning.node_id).map(|number| {
+            let value = seq!["rt::NodeId::new(", number, ")"];
+            let docs = "Node-ID of this device in the configuration file.";
+            Declaration::new([docs], "const NODE_ID: Option<rt::NodeId>", value)
+        });
+        self.constants.extend(identity.into_iter().chain(node_id));
+        self.constants.extend(bus_facts::models(device).chain(composite::models(context)));
+        if let Some((constants, images)) = ethercat::device(device, &self.title, &self.pdos, modules) {
+            self.constants.extend(constants);
+            self.images = images;
+        }
+        if let Some((constant, models)) = axes::model(device) {
+            self.constants.push(constant);
+            self.axes = Some(models);
+        }
     }
 
     /// Creates the model of a module of a modular device.
@@ -146,7 +158,7 @@ impl Model {
         let context = context(Scope::of_module(module), options, "");
         let mut model = Model::of_context(&context, options);
         model.title = docs::escape(&module.name);
-        model.module = Some(ethercat::module(module, &model.pdos));
+        model.constants.push(ethercat::module(module, &model.title, &model.pdos));
         model
     }
 

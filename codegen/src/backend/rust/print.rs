@@ -5,7 +5,6 @@ pub(super) mod bit_field;
 mod cia402;
 pub(super) mod codes;
 mod configuration;
-mod device;
 mod given;
 pub(super) mod image;
 mod mapping;
@@ -13,7 +12,6 @@ mod mapping;
 mod messages;
 pub(super) mod objects;
 pub(super) mod pdos;
-mod procedures;
 #[cfg(feature = "gsdml")]
 pub(super) mod profinet;
 mod section;
@@ -21,14 +19,22 @@ mod table;
 pub(super) mod types;
 pub(super) mod views;
 
-use super::code::Code;
+use super::code::{line, Code, Declaration};
 use super::model::Model;
 use super::named::Types;
+use super::INTERFACE_VERSION;
+
+/// Prints the first lines of a file or of the module of a device.
+pub(super) fn start(code: &mut Code) {
+    code.use_runtime();
+    line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
+}
 
 /// Prints a device or a module of a modular device. Drops large parts of the model as soon as they are printed, because a text
 /// that is not written in parts grows at the same time.
 pub(super) fn model(code: &mut Code, mut model: Model) {
-    device::write(code, &model);
+    start(code);
+    code.declare(&model.constants);
     accessors::write(code, &mut model);
     given::models(code, &model.models);
     given::machine(code, model.given.as_ref());
@@ -38,7 +44,11 @@ pub(super) fn model(code: &mut Code, mut model: Model) {
     model.types = Types::default();
     codes::write(code, &model);
     model.code_tables = Vec::new();
-    procedures::write(code, &model.procedures);
+    let procedures = "Sequences of SDO writes. Send the writes of a sequence in order with `SdoWrite::send`.";
+    constants(code, procedures, "procedures", &model.procedures);
+    let windows =
+        "Windows for indirect access. Each window has an item for the number of a value and an item for the value.";
+    constants(code, windows, "windows", &model.windows);
     objects::write(code, &mut model);
     mapping::write(code, &model);
     pdos::write(code, &model);
@@ -46,4 +56,14 @@ pub(super) fn model(code: &mut Code, mut model: Model) {
     image::write(code, &model);
     table::write(code, &model);
     configuration::write(code, &model);
+}
+
+/// Prints a module that contains only constants. Prints nothing if there are none.
+fn constants(code: &mut Code, heading: &str, name: &str, constants: &[Declaration]) {
+    if !constants.is_empty() {
+        code.module(heading, name, |code| {
+            code.use_runtime();
+            code.declare(constants);
+        });
+    }
 }

@@ -1,6 +1,7 @@
 //! Procedures that consist only of object writes, such as a start-up list. These procedures become constants that a
 //! program can send.
 
+use super::code::{list, seq, Declaration};
 use super::context::Context;
 use super::doc_table;
 use super::docs::{self, WORDS};
@@ -12,29 +13,18 @@ use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
 use crate::names::{self, Case};
 use crate::number::{hex16, hex8};
 
-/// A procedure, ready to be printed.
-pub(super) struct ProcedureModel {
-    pub name: String,
-    pub docs: Vec<String>,
-    /// Code of the writes, as constructor calls.
-    pub writes: Vec<String>,
-}
-
-pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<ProcedureModel> {
+/// Returns a constant for each procedure that consists only of object writes.
+pub(super) fn models(context: &Context<'_>, device: &Device) -> Vec<Declaration> {
     let procedures = device.procedures.iter();
     let procedures: Vec<(&Procedure, Vec<String>)> =
         procedures.filter_map(|procedure| Some((procedure, writes(context, procedure)?))).collect();
     let name_requests = names::numbered(procedures.iter().map(|(procedure, _)| procedure.name.as_str()), "procedure");
     let names = names::unique(name_requests, &["rt"], Case::Snake);
-    procedures
-        .into_iter()
-        .zip(names)
-        .map(|((procedure, writes), name)| ProcedureModel {
-            name: name.to_ascii_uppercase(),
-            docs: documentation(context, procedure),
-            writes,
-        })
-        .collect()
+    let constant = |((procedure, writes), name): (&(&Procedure, Vec<String>), String)| {
+        let start = seq!["const ", name.to_ascii_uppercase(), ": [rt::SdoWrite; ", writes.len(), "]"];
+        Declaration::new(documentation(context, procedure), start, list("[", writes, "]"))
+    };
+    procedures.iter().zip(names).map(constant).collect()
 }
 
 fn documentation(context: &Context<'_>, procedure: &Procedure) -> Vec<String> {

@@ -136,13 +136,6 @@ impl<'s> Code<'s> {
         self.line(&[&"pub ", &name, &": ", &ty, &","]);
     }
 
-    /// Writes a line for each field of a struct literal.
-    pub fn values<P: Piece>(&mut self, fields: impl IntoIterator<Item = (&'static str, P)>) {
-        for (name, value) in fields {
-            self.line(&[&name, &": ", &value, &","]);
-        }
-    }
-
     /// Writes a public module with `heading` as its doc comment.
     pub fn module(&mut self, heading: &str, name: &str, content: impl FnOnce(&mut Self)) {
         self.doc(heading);

@@ -6,7 +6,7 @@ mod settings;
 mod startup;
 
 pub(super) use image::{ImageField, ImageModel};
-pub(super) use settings::{module, EtherCatModel, ModulePaths};
+pub(super) use settings::{device, module, ModulePaths};
 
 /// A PDO that is assigned by default, and the number of its sync manager.
 type Assigned<'a> = (&'a crate::ir::Pdo, u8);

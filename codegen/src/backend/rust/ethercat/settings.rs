@@ -1,6 +1,6 @@
 //! The EtherCAT settings of a device as statics and constants.
 
-use super::super::code::{Data, Doc};
+use super::super::code::{seq, Data, Declaration, Doc};
 use super::super::literal;
 use super::super::pdo::{PdoModel, PdoModels};
 use super::ImageModel;
@@ -8,47 +8,51 @@ use super::{descriptor, image, startup};
 use crate::collections::HashMap;
 use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId};
 
-/// The description of a device for an EtherCAT master, ready to be printed.
-pub(in super::super) struct EtherCatModel {
-    /// Value of the static `DEVICE`.
-    pub device: Doc,
-    /// Value of the constant `FMMUS`.
-    pub fmmus: Option<Doc>,
-    /// Value of the constant `CLOCK_MODES`.
-    pub clock_modes: Option<Doc>,
-    /// Value of the constant `STARTUP`.
-    pub startup: Option<Doc>,
-    /// Constants with byte sequences: name, documentation and value of each constant.
-    pub bytes: Vec<(&'static str, &'static str, String)>,
-    /// Default process images.
-    pub images: Vec<ImageModel>,
-}
-
 /// Paths of the modules' statics `MODULE`, by the module's position in the catalog.
 pub(in super::super) type ModulePaths = HashMap<ModuleId, String>;
 
-impl EtherCatModel {
-    pub(in super::super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths) -> Option<Self> {
-        let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
-        let assigned = device.process_data.assigned_by_default();
-        let pdos = PdoModels::new(pdos);
-        let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
-        let clocks = settings.clocks.as_ref().filter(|clocks| !clocks.modes.is_empty());
-        let list = |list: Vec<Doc>| (!list.is_empty()).then(|| Data::slice(list));
-        Some(EtherCatModel {
-            device: descriptor,
-            fmmus: list(settings.fmmus.iter().map(fmmu).collect()),
-            clock_modes: clocks.and_then(|clocks| list(clocks.modes.iter().map(clock_mode).collect())),
-            startup: list(startup::commands(device, settings, &assigned)),
-            bytes: bytes(settings),
-            images: image::models(&pdos, &assigned),
-        })
-    }
+/// Returns the statics and constants that describe a device for an EtherCAT master, and the default process images.
+pub(in super::super) fn device(
+    device: &Device,
+    title: &str,
+    pdos: &[PdoModel],
+    modules: &ModulePaths,
+) -> Option<(Vec<Declaration>, Vec<ImageModel>)> {
+    let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
+    let assigned = device.process_data.assigned_by_default();
+    let pdos = PdoModels::new(pdos);
+    let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
+    let docs = format!("EtherCAT description of {title} for the master.");
+    let mut all = vec![Declaration::new([docs], "static DEVICE: rt::ethercat::Device", descriptor)];
+    let modes = settings.clocks.iter().flat_map(|clocks| &clocks.modes);
+    let lists: [(&str, &str, Vec<Doc>); 3] = [
+        (
+            "FMMUs of the slave controller, in the order of their numbers.",
+            "FMMUS: &[rt::ethercat::Fmmu]",
+            settings.fmmus.iter().map(fmmu).collect(),
+        ),
+        (
+            "Operation modes of the distributed clocks. The first mode is the default.",
+            "CLOCK_MODES: &[rt::ethercat::ClockMode]",
+            modes.map(clock_mode).collect(),
+        ),
+        (
+            "SDO writes that configure the default PDO assignment. Send them in the state \"Pre-Operational\".",
+            "STARTUP: &[rt::SdoWrite]",
+            startup::commands(device, settings, &assigned),
+        ),
+    ];
+    let lists = lists.into_iter().filter(|(.., list)| !list.is_empty());
+    all.extend(lists.map(|(docs, name, list)| Declaration::new([docs], seq!["const ", name], Data::slice(list))));
+    all.extend(bytes(settings));
+    Some((all, image::models(&pdos, &assigned)))
 }
 
-/// Returns the value of the static `MODULE`.
-pub(in super::super) fn module(module: &Module, pdos: &[PdoModel]) -> Doc {
-    descriptor::module(module, &PdoModels::new(pdos))
+/// Returns the static `MODULE`.
+pub(in super::super) fn module(module: &Module, title: &str, pdos: &[PdoModel]) -> Declaration {
+    let docs = format!("EtherCAT description of {title} for the master.");
+    let descriptor = descriptor::module(module, &PdoModels::new(pdos));
+    Declaration::new([docs], "static MODULE: rt::ethercat::Module", descriptor)
 }
 
 fn fmmu(fmmu: &Fmmu) -> Doc {
@@ -87,7 +91,7 @@ fn clock_mode(mode: &ClockMode) -> Doc {
     )
 }
 
-fn bytes(settings: &EtherCatSettings) -> Vec<(&'static str, &'static str, String)> {
+fn bytes(settings: &EtherCatSettings) -> Vec<Declaration> {
     let Some(eeprom) = &settings.eeprom else { return Vec::new() };
     let all = [
         ("EEPROM", "Content of the EEPROM.", &eeprom.data),
@@ -103,5 +107,8 @@ fn bytes(settings: &EtherCatSettings) -> Vec<(&'static str, &'static str, String
         ),
     ];
     let given = all.into_iter().filter(|(.., bytes)| !bytes.is_empty());
-    given.map(|(name, documentation, bytes)| (name, documentation, literal::bytes(bytes))).collect()
+    let constant = |(name, docs, bytes): (&str, &str, &Vec<u8>)| {
+        Declaration::new([docs], seq!["const ", name, ": &[u8]"], literal::bytes(bytes))
+    };
+    given.map(constant).collect()
 }

@@ -1,6 +1,6 @@
 //! Constants of a message protocol: frame delimiters, maximum length, and whether requests contain a station number.
 
-use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::code::{Data, Declaration, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::ir::{Device, Framing};
@@ -10,9 +10,9 @@ use crate::resolve::messages::{Shaped, Step};
 /// Assumed length in bytes of a part of the message data that has no maximum length.
 const UNBOUNDED_LENGTH: u32 = 256;
 
-/// Returns the expression of the framing constant. Returns `None` if frames have no end byte, or if the runtime does
+/// Returns the constant with the framing of messages. Returns `None` if frames have no end byte, or if the runtime does
 /// not support the checksum algorithm.
-pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> {
+pub(super) fn constant(framing: &Framing, context: &Context<'_>, shaped: &[Shaped<'_>]) -> Option<Declaration> {
     let byte = |byte: u8| Doc::from(hex8(byte));
     let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
     let from = check_start(shaped).unwrap_or(0);
@@ -30,14 +30,14 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Doc> 
         ("is_check_escaped", Doc::from((framing.check_escaped).to_string())),
         ("max_data", Doc::from(max)),
     ];
-    Some(Data::fields("rt::framing::Delimited", fields))
-}
-
-/// Returns the documentation of the framing constant.
-pub(super) fn documentation(framing: &Framing, context: &Context<'_>) -> Vec<String> {
     let title = "Framing of messages: delimiters, escape bytes and checksum.".to_owned();
     let described = docs::described(framing.documentation.as_deref(), &context.manual);
-    docs::paragraphs([title].into_iter().chain(described))
+    let docs = docs::paragraphs([title].into_iter().chain(described));
+    Some(Declaration::new(
+        docs,
+        "const FRAMING: rt::framing::Delimited",
+        Data::fields("rt::framing::Delimited", fields),
+    ))
 }
 
 fn check(framing: &Framing) -> Option<String> {

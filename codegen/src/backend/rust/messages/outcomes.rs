@@ -1,6 +1,6 @@
 //! Effects of messages in each state of the device: the rows of the manual's table of commands and states.
 
-use crate::backend::rust::code::{Data, Doc};
+use crate::backend::rust::code::{seq, Data, Declaration, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::docs;
@@ -13,20 +13,10 @@ use crate::ir::{
 };
 use crate::names::{self, Case, NameRequest};
 
-/// The effects of a message in each state, ready to be printed.
-pub(in crate::backend::rust) struct OutcomesModel {
-    /// The name of the constant with the effects.
-    pub name: String,
-    pub docs: Vec<String>,
-    /// The type of the states.
-    pub states: String,
-    pub value: Doc,
-}
-
-/// Returns the effects of all messages, keyed by message.
-pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<MessageId, Vec<OutcomesModel>> {
+/// Returns a constant with the effects of a message in each state for each state machine, keyed by message.
+pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> HashMap<MessageId, Vec<Declaration>> {
     let machines = || device.machines.iter().enumerate().filter(|(_, machine)| !machine.outcomes.is_empty());
-    let mut all: HashMap<MessageId, Vec<OutcomesModel>> = HashMap::default();
+    let mut all: HashMap<MessageId, Vec<Declaration>> = HashMap::default();
     for (position, machine) in machines() {
         let Some((ty, variants)) = states(context, machine, position, types) else { continue };
         let states = format!("super::types::{ty}");
@@ -42,8 +32,8 @@ pub(super) fn models(context: &Context<'_>, device: &Device, types: &Types) -> H
             for message in row.commands.iter().filter_map(|command| command.id) {
                 let value = row_data(row, &states, &variants);
                 let docs = documentation(context, machine, row, &link);
-                let model = OutcomesModel { name: name.clone(), docs, states: states.clone(), value };
-                all.entry(message).or_default().push(model);
+                let start = seq!["const ", name, ": rt::message::Outcomes<", states, ">"];
+                all.entry(message).or_default().push(Declaration::new(docs, start, value));
             }
         }
     }

@@ -1,13 +1,12 @@
 //! Models of a message protocol and of its messages.
 
-use super::super::code::{call, seq, Doc};
+use super::super::code::{call, seq, Declaration, Doc};
 use super::super::context::Context;
 use super::super::docs::{self, WORDS};
 use super::super::links::{self, DocModule};
 use super::super::named::Types;
 use super::super::naming::messages::{MessageNames as Names, NamedMessages};
 use super::super::options::RustOptions;
-use super::outcomes::OutcomesModel;
 use super::rules::{RuleModel, Rules};
 use super::{completion, device, field, framing, outcomes, parameters, steps};
 use super::{CallModel, Field, ParametersModel, Statements};
@@ -17,9 +16,8 @@ use crate::resolve::messages::{self, Shaped, Step};
 
 /// A message protocol, ready to be printed.
 pub(in super::super) struct ProtocolModel {
-    /// Expression of the framing constant.
-    pub framing: Option<Doc>,
-    pub framing_docs: Vec<String>,
+    /// The constant with the framing of messages.
+    pub framing: Option<Declaration>,
     pub max_data: u32,
     pub derives: Vec<String>,
     /// True if any request contains a station number.
@@ -49,7 +47,7 @@ pub(in super::super) struct MessageModel {
     /// True if this request determines the meaning of other requests.
     pub is_selector: bool,
     /// Effects of the message in each state.
-    pub outcomes: Vec<OutcomesModel>,
+    pub outcomes: Vec<Declaration>,
 }
 
 /// The data of a request or a reply.
@@ -116,12 +114,7 @@ impl ProtocolModel {
             false => Vec::new(),
         };
         Some(ProtocolModel {
-            framing: device.framing.as_deref().and_then(|framing| framing::constant(framing, shapes)),
-            framing_docs: device
-                .framing
-                .as_deref()
-                .map(|framing| framing::documentation(framing, context))
-                .unwrap_or_default(),
+            framing: device.framing.as_deref().and_then(|framing| framing::constant(framing, context, shapes)),
             max_data: framing::max_data(device, shapes),
             derives: options.derives(true),
             has_station: framing::has_station(shapes),

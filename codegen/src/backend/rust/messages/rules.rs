@@ -1,6 +1,7 @@
 //! Encoding rules for parameters in messages. Each rule is a constant for one parameter space and one length of the
 //! parameter numbers.
 
+use crate::backend::rust::code::{seq, slice, Data, Declaration};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs;
 use crate::backend::rust::links::DocModule;
@@ -15,13 +16,10 @@ const MAX_NAME: usize = 24;
 
 /// A constant with an encoding rule, ready to be printed.
 pub(in crate::backend::rust) struct RuleModel {
-    pub name: String,
-    pub space: String,
-    pub docs: String,
-    pub code_bits: u32,
-    pub order: String,
-    /// Ranges of parameter numbers, each with the byte length of its values.
-    pub lengths: Vec<String>,
+    name: String,
+    space: String,
+    code_bits: u32,
+    pub constant: Declaration,
 }
 
 /// The constants of all encoding rules.
@@ -66,16 +64,17 @@ impl Rules {
         let names = names::unique_up_to(name_requests, &reserved, Case::Snake, MAX_NAME);
         let models = used.iter().zip(names).map(|((space, bits), name)| {
             let definition = device.parameter_space(space);
-            let order = definition
-                .map(|definition| definition.byte_order.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
-            RuleModel {
-                name: name.to_ascii_uppercase(),
-                space: space.to_string(),
-                docs: documentation(context, definition, space),
-                code_bits: *bits,
-                order: order.unwrap_or_default(),
-                lengths: lengths(context, device, space),
-            }
+            let order = definition.map_or(&[][..], |definition| &definition.byte_order);
+            let order = order.iter().map(u8::to_string).collect::<Vec<_>>().join(", ");
+            let values = [
+                ("code_bits", seq![*bits]),
+                ("order", seq!["&[", order, "]"]),
+                ("lengths", slice(lengths(context, device, space))),
+            ];
+            let (name, docs) = (name.to_ascii_uppercase(), documentation(context, definition, space));
+            let start = seq!["const ", name, ": rt::message::SettingsRule"];
+            let constant = Declaration::new([docs], start, Data::fields("rt::message::SettingsRule", values));
+            RuleModel { name, space: space.to_string(), code_bits: *bits, constant }
         });
         Rules { models: models.collect() }
     }

@@ -65,10 +65,9 @@ fn methods(code: &mut Code, model: &mut Model) {
     code.block("pub fn client(&mut self) -> &mut C", "&mut self.client");
     code.doc("Returns the client and drops the driver.");
     code.block("pub fn into_client(self) -> C", "self.client");
-    if let Some(axes) = &model.axes {
+    if let Some(models) = &model.axes {
         code.doc(&format!(
-            "Returns the driver for axis `number`{}. The first axis has the number 1. Objects that all axes share have the same address on every axis.",
-            axes.models
+            "Returns the driver for axis `number`{models}. The first axis has the number 1. Objects that all axes share have the same address on every axis."
         ));
         let driver = generic!(name, generic!("rt::Axis", "&mut C"));
         let axis = call!("rt::Axis::new", "&mut self.client", "&AXES", "number");

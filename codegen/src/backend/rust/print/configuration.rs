@@ -7,7 +7,9 @@ pub(super) fn write(code: &mut Code, model: &Model) {
     let Some(configuration) = &model.configuration else { return };
     code.docs(&configuration.docs);
     open!(code, "pub const CONFIGURATION: rt::Configuration = rt::Configuration {");
-    code.values(configuration.phases.iter().map(|(name, settings)| (*name, slice(settings))));
+    for (phase, settings) in &configuration.phases {
+        line!(code, phase, ": ", slice(settings), ",");
+    }
     line!(code, "..rt::Configuration::EMPTY");
     code.close("};");
 }

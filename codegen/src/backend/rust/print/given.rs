@@ -1,6 +1,6 @@
 //! Prints the machine constants, and the differences between the models of a device.
 
-use crate::backend::rust::code::{call, line, open, seq, Code, Stop};
+use crate::backend::rust::code::{call, line, open, seq, Code};
 use crate::backend::rust::device_models::DeviceModel;
 use crate::backend::rust::given::{GivenModel, UnitModel};
 
@@ -14,10 +14,7 @@ pub(super) fn models(code: &mut Code, models: &[DeviceModel]) {
         code.docs(&model.docs);
         line!(code, "#[allow(clippy::approx_constant)]");
         open!(code, "pub mod ", model.name, " {");
-        for (name, docs, value) in &model.constants {
-            code.doc(docs);
-            line!(code, "pub const ", name, ": f64 = ", value, ";");
-        }
+        code.declare(&model.constants);
         if !model.items.is_empty() {
             items(code, model);
         }
@@ -34,11 +31,7 @@ fn items(code: &mut Code, model: &DeviceModel) {
     if model.names_types() {
         line!(code, "use super::super::super::types;");
     }
-    for item in &model.items {
-        code.doc(&item.docs);
-        let value = call!("rt::Item::of_model", seq!["objects::", item.name], item.range, item.initial);
-        line!(code, "pub const ", item.name, ": ", item.ty, " = ", Stop, value, ";");
-    }
+    code.declare(model.items.iter().map(|item| &item.constant));
     code.close("}");
 }
 

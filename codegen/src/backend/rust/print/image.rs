@@ -9,7 +9,7 @@ use crate::backend::rust::reexport::Section;
 const ERROR: &str = "Returns an error if `data` has fewer bytes than the image.";
 
 pub(super) fn write(code: &mut Code, model: &Model) {
-    let images = model.ethercat.as_ref().map_or(&[][..], |ethercat| &ethercat.images);
+    let images = &model.images;
     let heading = "Process image of the default PDO assignment, with one struct for each sync manager.";
     section::write(code, model, Section::Image, heading, (!images.is_empty()).then_some(true), |code| {
         images.iter().for_each(|image| self::image(code, image));

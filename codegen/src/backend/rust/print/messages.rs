@@ -21,14 +21,7 @@ pub(super) fn write(code: &mut Code, model: &mut Model) {
     if let Some(parameters) = &protocol.parameters {
         self::parameters(code, parameters, protocol.has_station);
     }
-    for rule in &protocol.rules {
-        code.doc(&rule.docs);
-        open!(code, "pub const ", rule.name, ": rt::message::SettingsRule = rt::message::SettingsRule {");
-        line!(code, "code_bits: ", rule.code_bits, ",");
-        line!(code, "order: &[", rule.order, "],");
-        line!(code, "lengths: ", list("&[", &rule.lengths, "]"), ",");
-        code.close("};");
-    }
+    code.declare(protocol.rules.iter().map(|rule| &rule.constant));
     let device = (!protocol.calls.is_empty()).then_some(model.device_name.as_str());
     for message in std::mem::take(&mut protocol.messages) {
         if let Some(data) = &message.request {
@@ -45,10 +38,7 @@ pub(super) fn write(code: &mut Code, model: &mut Model) {
 }
 
 fn constants(code: &mut Code, protocol: &ProtocolModel) {
-    if let Some(framing) = &protocol.framing {
-        code.docs(&protocol.framing_docs);
-        line!(code, "pub const FRAMING: rt::framing::Delimited = ", framing, ";");
-    }
+    code.declare(&protocol.framing);
     code.doc("Maximum length of the data in a message, in bytes.");
     line!(code, "pub const MAX_DATA: usize = ", protocol.max_data, ";");
     code.doc(match protocol.has_station {
@@ -173,19 +163,7 @@ fn request(code: &mut Code, message: &MessageModel, data: &DataModel, device: Op
     code.close("}");
     if !message.outcomes.is_empty() {
         open!(code, "impl", lifetime, " ", name, lifetime, " {");
-        for outcomes in &message.outcomes {
-            code.docs(&outcomes.docs);
-            line!(
-                code,
-                "pub const ",
-                outcomes.name,
-                ": rt::message::Outcomes<",
-                outcomes.states,
-                "> = ",
-                outcomes.value,
-                ";"
-            );
-        }
+        code.declare(&message.outcomes);
         code.close("}");
     }
     if let Some(device) = device.filter(|_| message.is_selector) {

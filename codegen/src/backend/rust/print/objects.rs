@@ -1,4 +1,4 @@
-//! Prints the handles of objects and registers, and the windows through which some items are accessed.
+//! Prints the handles of objects and registers.
 
 use super::section;
 use crate::backend::rust::code::{call, generic, line, list, open, seq, Code, Doc, Stop};
@@ -6,11 +6,9 @@ use crate::backend::rust::item::ItemModel;
 use crate::backend::rust::model::Model;
 use crate::backend::rust::objects::ObjectModel;
 use crate::backend::rust::reexport::Section;
-use crate::backend::rust::window_model::WindowModel;
 
-/// Prints the windows and handles, and then removes the code and documentation of all handles from the model.
+/// Prints the handles, and then removes the code and documentation of all handles from the model.
 pub(super) fn write(code: &mut Code, model: &mut Model) {
-    windows(code, &model.windows);
     if model.objects.is_empty() {
         return;
     }
@@ -30,26 +28,6 @@ pub(super) fn write(code: &mut Code, model: &mut Model) {
         }
     });
     model.objects = objects;
-}
-
-fn windows(code: &mut Code, windows: &[WindowModel]) {
-    if windows.is_empty() {
-        return;
-    }
-    code.doc(
-        "Windows for indirect access. Each window has an item for the number of a value and an item for the value.",
-    );
-    open!(code, "pub mod windows {");
-    code.use_runtime();
-    for window in windows {
-        code.docs(&window.docs);
-        open!(code, "pub const ", window.name, ": ", window.ty, " = ", Stop, window.kind, " {");
-        for fact in &window.facts {
-            line!(code, fact, ",");
-        }
-        code.close("};");
-    }
-    code.close("}");
 }
 
 /// Writes the location types that are not part of the runtime, and the functions that create the locations of several

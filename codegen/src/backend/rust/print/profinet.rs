@@ -5,20 +5,19 @@ mod image;
 mod record;
 mod values;
 
-use super::device::identity;
 use crate::backend::rust::code::{line, open, Code, Data, Doc};
-use crate::backend::rust::profinet::{DapModel, FieldModel, FileModel, ModuleModel, SubmoduleModel};
+use crate::backend::rust::profinet::{FieldModel, FileModel, ModuleModel, SubmoduleModel};
 
 /// Writes the code of a file: device access points, modules, submodules, enumerations and diagnosis.
 pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     for point in &file.access_points {
         if file.is_single {
-            access_point(code, point);
+            code.declare(&point.constants);
             continue;
         }
         code.module(&point.heading, point.name, |code| {
             code.use_runtime();
-            access_point(code, point);
+            code.declare(&point.constants);
         });
     }
     if !file.modules.is_empty() {
@@ -43,23 +42,11 @@ pub(in crate::backend::rust) fn write(code: &mut Code, file: &FileModel<'_>) {
     }
 }
 
-fn access_point(code: &mut Code, access_point: &DapModel<'_>) {
-    code.docs(&access_point.docs);
-    open!(code, "pub static DAP: rt::profinet::Dap = rt::profinet::Dap {");
-    code.values(access_point.values.iter().map(|(name, value)| (*name, value)));
-    code.close("};");
-    let documentation = "Identity of the device. The product code is the PROFINET device ID.";
-    identity(code, &access_point.identity, documentation);
-}
-
 fn pluggable(code: &mut Code, module: &ModuleModel<'_>) {
     code.docs(&module.docs);
     open!(code, "pub mod ", module.name, " {");
     code.use_runtime();
-    code.doc("Description of the module. A slot plan uses this constant.");
-    open!(code, "pub static MODULE: rt::profinet::Module = rt::profinet::Module {");
-    code.values(module.values.iter().map(|(name, value)| (*name, value)));
-    code.close("};");
+    code.declare([&module.constant]);
     code.close("}");
 }
 
@@ -70,10 +57,7 @@ fn submodule(code: &mut Code, submodule: &SubmoduleModel<'_>) {
     if submodule.uses_values {
         line!(code, "use super::super::values;");
     }
-    code.doc("Description of the submodule. Modules and slot plans use this constant.");
-    open!(code, "pub static SUBMODULE: rt::profinet::Submodule = rt::profinet::Submodule {");
-    code.values(submodule.values.iter().map(|(name, value)| (*name, value)));
-    code.close("};");
+    code.declare([&submodule.constant]);
     submodule.images.iter().for_each(|image| image::write(code, image));
     submodule.records.iter().for_each(|record| record::write(code, record));
     if let Some(record) = &submodule.f_record {

@@ -6,9 +6,9 @@ use super::image::{self, ImageModel};
 use super::literal;
 use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
-use crate::backend::rust::code::{call, seq, slice, Data, Doc};
+use crate::backend::rust::code::{call, seq, slice, Data, Declaration, Doc};
 use crate::backend::rust::doc_table;
-use crate::backend::rust::identity::IdentityModel;
+use crate::backend::rust::identity;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
 use crate::number::{hex16, hex32};
 use crate::text::count_of;
@@ -17,8 +17,8 @@ use crate::text::count_of;
 pub(in crate::backend::rust) struct SubmoduleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    /// Fields of the static `SUBMODULE`.
-    pub values: Vec<(&'static str, Doc)>,
+    /// The static `SUBMODULE`.
+    pub constant: Declaration,
     pub images: Vec<ImageModel>,
     pub records: Vec<RecordModel>,
     pub f_record: Option<FRecordModel>,
@@ -36,19 +36,21 @@ pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name
         images.iter().flat_map(|image| &image.fields).chain(records.iter().flat_map(|record| &record.fields));
     let mut constants = records.iter().flat_map(|record| &record.constants);
     let uses_values = fields.any(|field| field.is_enumeration) || constants.any(|constant| constant.is_enumeration);
+    let values = [
+        ("ident", Doc::from(hex32(submodule.ident))),
+        ("api", Doc::from(hex16(submodule.api))),
+        ("name", Doc::from(literal::string(&submodule.name))),
+        ("input_len", length(submodule.input.as_deref())),
+        ("output_len", length(submodule.output.as_deref())),
+        ("provider_len", seq![submodule.status_lengths.0]),
+        ("consumer_len", seq![submodule.status_lengths.1]),
+        ("records", slice(record_list(&records, f_record.as_ref()))),
+    ];
+    let about = "Description of the submodule. Modules and slot plans use this constant.";
     SubmoduleModel {
         name,
         docs: submodule_docs(submodule, name, &images, &records, f_record.is_some()),
-        values: vec![
-            ("ident", Doc::from(hex32(submodule.ident))),
-            ("api", Doc::from(hex16(submodule.api))),
-            ("name", Doc::from(literal::string(&submodule.name))),
-            ("input_len", length(submodule.input.as_deref())),
-            ("output_len", length(submodule.output.as_deref())),
-            ("provider_len", seq![submodule.status_lengths.0]),
-            ("consumer_len", seq![submodule.status_lengths.1]),
-            ("records", slice(record_list(&records, f_record.as_ref()))),
-        ],
+        constant: constant([about], "SUBMODULE", "rt::profinet::Submodule", values),
         images,
         records,
         f_record,
@@ -116,24 +118,32 @@ fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> Vec<
 pub(in crate::backend::rust) struct ModuleModel<'a> {
     pub name: &'a str,
     pub docs: Vec<String>,
-    /// Fields of the static `MODULE`.
-    pub values: Vec<(&'static str, Doc)>,
+    /// The static `MODULE`.
+    pub constant: Declaration,
 }
 
 pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
     let title = docs::titled(&module.name, &format!("module {}", hex32(module.number)));
     let mut docs = docs::documented(title, &module.name, module.documentation.as_deref());
     list_submodules(scope, &module.submodules, &mut docs);
-    ModuleModel {
-        name,
-        docs,
-        values: vec![
-            ("ident", Doc::from(hex32(module.number))),
-            ("name", Doc::from(literal::string(&module.name))),
-            ("submodules", slice(submodule_uses(scope, &module.submodules, "super::super::"))),
-            ("subslots", slice(numbers(&module.subslots))),
-        ],
-    }
+    let values = [
+        ("ident", Doc::from(hex32(module.number))),
+        ("name", Doc::from(literal::string(&module.name))),
+        ("submodules", slice(submodule_uses(scope, &module.submodules, "super::super::"))),
+        ("subslots", slice(numbers(&module.subslots))),
+    ];
+    let about = "Description of the module. A slot plan uses this constant.";
+    ModuleModel { name, docs, constant: constant([about], "MODULE", "rt::profinet::Module", values) }
+}
+
+/// Returns a static with a struct of this type.
+fn constant<const N: usize>(
+    docs: impl IntoIterator<Item: Into<String>>,
+    name: &str,
+    ty: &str,
+    values: [(&str, Doc); N],
+) -> Declaration {
+    Declaration::new(docs, seq!["static ", name, ": ", ty], Data::fields(ty, values))
 }
 
 /// Returns the slot of a device access point: its first fixed slot, otherwise its first allowed slot, otherwise 0.
@@ -145,22 +155,19 @@ pub(super) fn slot(point: &AccessPoint<'_>) -> u16 {
 /// A device access point, ready to be printed.
 pub(in crate::backend::rust) struct DapModel<'a> {
     pub name: &'a str,
-    pub docs: Vec<String>,
     /// Heading of the device access point in generated comments.
     pub heading: String,
-    pub identity: IdentityModel,
-    /// Fields of the static `DAP`.
-    pub values: Vec<(&'static str, Doc)>,
+    /// The static `DAP` and the constant `IDENTITY`.
+    pub constants: [Declaration; 2],
 }
 
 pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>) -> DapModel<'s> {
     let AccessPoint { device, settings, name } = point;
     let outer = if scope.is_single() { "" } else { "super::" };
     let heading = docs::titled(&device.name, &format!("device access point {}", hex32(settings.ident)));
-    let product_name = literal::string(&device.name);
-    let module = vec![
+    let module = [
         ("ident", Doc::from(hex32(settings.ident))),
-        ("name", Doc::from(product_name.as_str())),
+        ("name", Doc::from(literal::string(&device.name))),
         ("submodules", slice(submodule_uses(scope, &device.submodules, outer))),
         ("subslots", Doc::from("&[]")),
     ];
@@ -169,30 +176,21 @@ pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>)
     let lengths = lengths.map(|(name, length)| (name, Data::option(length)));
     let vendor_id = hex16(device.identity.vendor_id.map_or(0, |id| id & 0xFFFF));
     let device_id = hex16(settings.device_id);
-    DapModel {
-        name,
-        docs: docs::documented(heading.clone(), &device.name, device.documentation.as_deref()),
-        heading,
-        identity: IdentityModel {
-            vendor_id: Data::option(Some(&vendor_id)),
-            product_code: Data::option(Some(&device_id)),
-            revision_number: Doc::from("None"),
-            vendor_name: literal::string(&device.identity.vendor_name),
-            product_name,
-            order_code: literal::string(&device.identity.order_code),
-            origins: Vec::new(),
-        },
-        values: vec![
-            ("vendor_id", Doc::from(vendor_id)),
-            ("device_id", Doc::from(device_id)),
-            ("slot", seq![slot(point)]),
-            ("module", Data::fields("rt::profinet::Module", module)),
-            ("slots", slice(numbers(&settings.slots))),
-            ("modules", slice(module_uses(scope, &device.modules, outer))),
-            ("max_lengths", Data::fields("rt::profinet::IoLengths", lengths)),
-            ("max_record_size", seq![settings.max_record_size]),
-        ],
-    }
+    let names = [&device.identity.vendor_name, &device.name, &device.identity.order_code].map(|name| name.as_str());
+    let about = "Identity of the device. The product code is the PROFINET device ID.".to_owned();
+    let identity = identity::with(about, [Some(vendor_id.clone()), Some(device_id.clone()), None], names);
+    let values = [
+        ("vendor_id", Doc::from(vendor_id)),
+        ("device_id", Doc::from(device_id)),
+        ("slot", seq![slot(point)]),
+        ("module", Data::fields("rt::profinet::Module", module)),
+        ("slots", slice(numbers(&settings.slots))),
+        ("modules", slice(module_uses(scope, &device.modules, outer))),
+        ("max_lengths", Data::fields("rt::profinet::IoLengths", lengths)),
+        ("max_record_size", seq![settings.max_record_size]),
+    ];
+    let docs = docs::documented(heading.clone(), &device.name, device.documentation.as_deref());
+    DapModel { name, heading, constants: [constant(docs, "DAP", "rt::profinet::Dap", values), identity] }
 }
 
 fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<String>) {

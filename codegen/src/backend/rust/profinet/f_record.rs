@@ -1,6 +1,6 @@
 //! The F-parameter record of PROFIsafe.
 
-use crate::backend::rust::code::{call, seq, slice, Doc};
+use crate::backend::rust::code::{call, seq, slice, Data, Declaration, Doc};
 use crate::ir::{FParameter, FParameters};
 use crate::number::hex16;
 
@@ -9,10 +9,8 @@ pub(in crate::backend::rust) struct FRecordModel {
     pub index: u16,
     pub transfer_sequence: u16,
     pub length: u32,
-    pub docs: Vec<String>,
-    /// Fields of `rt::profinet::FParameters` with their default values.
-    pub defaults: Vec<(&'static str, String)>,
-    pub limits: Vec<Doc>,
+    /// The constant `F_PARAMETERS`, which describes the record.
+    pub constant: Declaration,
 }
 
 /// F-parameters: the GSDML name, the field in the runtime's struct, and the variant of the runtime's `FField`.
@@ -52,16 +50,18 @@ pub(super) fn model(record: &FParameters) -> FRecordModel {
     let default = |name: &str| find(record, name).map_or(0, number);
     let block_id = default("F_Block_ID");
     let length = 10 + if block_id & 1 != 0 { 4 } else { 0 } + if block_id & 2 != 0 { 2 } else { 0 };
-    let defaults = PARAMETERS.iter().map(|&(name, field, _)| (field, literal(field, default(name)))).collect();
-    let limits = PARAMETERS.iter().filter_map(|&(name, _, variant)| limit(find(record, name)?, variant)).collect();
-    FRecordModel {
-        index: record.index,
-        transfer_sequence: record.transfer_sequence,
-        length,
-        docs: vec![format!("F-parameters (PROFIsafe): record {} of {length} bytes.", hex16(record.index))],
-        defaults,
-        limits,
-    }
+    let default = |&(name, field, _): &_| (field, Doc::from(literal(field, default(name))));
+    let limits = PARAMETERS.iter().filter_map(|&(name, _, variant)| limit(find(record, name)?, variant));
+    let values = [
+        ("index", Doc::from(hex16(record.index))),
+        ("transfer_sequence", seq![record.transfer_sequence]),
+        ("default", Data::fields("rt::profinet::FParameters", PARAMETERS.iter().map(default))),
+        ("limits", slice(limits)),
+    ];
+    let docs = format!("F-parameters (PROFIsafe): record {} of {length} bytes.", hex16(record.index));
+    let start = seq!["const F_PARAMETERS: rt::profinet::FRecord<", length, ">"];
+    let constant = Declaration::new([docs], start, Data::fields("rt::profinet::FRecord", values));
+    FRecordModel { index: record.index, transfer_sequence: record.transfer_sequence, length, constant }
 }
 
 fn find<'r>(record: &'r FParameters, name: &str) -> Option<&'r FParameter> {

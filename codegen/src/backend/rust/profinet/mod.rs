@@ -17,9 +17,9 @@ mod types;
 mod usage;
 mod values;
 
-use super::code::{line, Code, Doc};
+use super::code::{Code, Doc};
+use super::RustOptions;
 use super::{literal, print};
-use super::{RustOptions, INTERFACE_VERSION};
 use crate::ir::Catalog;
 pub(super) use descriptor::{DapModel, ModuleModel, SubmoduleModel};
 pub(super) use diagnosis::UnitModel;
@@ -52,8 +52,7 @@ pub(super) fn emit(catalog: &Catalog, options: &RustOptions, mut code: Code<'_>)
     if scope.access_points.is_empty() {
         return false;
     }
-    code.use_runtime();
-    line!(code, "const _: () = rt::interface::assert_version(", INTERFACE_VERSION, ");");
+    print::start(&mut code);
     print::profinet::write(&mut code, &FileModel::new(&scope));
     code.finish();
     true

@@ -1,7 +1,7 @@
 //! Prints parameter records.
 
 use super::{fields, literal};
-use crate::backend::rust::code::{call, line, list, open, Code};
+use crate::backend::rust::code::{call, line, open, Code};
 use crate::backend::rust::profinet::{FRecordModel, RecordModel};
 use crate::number::hex16;
 
@@ -107,18 +107,8 @@ fn record_data(code: &mut Code, name: &str) {
     code.close("}");
 }
 
-/// Writes the constant `F_PARAMETERS`, which describes the F-parameter record of PROFIsafe, and a static with the
-/// default bytes of the record.
+/// Writes the constant `F_PARAMETERS`, and a static with the default bytes of the record.
 pub(super) fn f_parameters(code: &mut Code, record: &FRecordModel) {
-    code.docs(&record.docs);
-    let length = record.length;
-    open!(code, "pub const F_PARAMETERS: rt::profinet::FRecord<", length, "> = rt::profinet::FRecord {");
-    line!(code, "index: ", hex16(record.index), ",");
-    line!(code, "transfer_sequence: ", record.transfer_sequence, ",");
-    open!(code, "default: rt::profinet::FParameters {");
-    code.values(record.defaults.iter().map(|(name, value)| (*name, value)));
-    code.close("},");
-    line!(code, "limits: ", list("&[", &record.limits, "]"), ",");
-    code.close("};");
-    line!(code, "static F_PARAMETERS_DEFAULT: [u8; ", length, "] = F_PARAMETERS.default_bytes();");
+    code.declare([&record.constant]);
+    line!(code, "static F_PARAMETERS_DEFAULT: [u8; ", record.length, "] = F_PARAMETERS.default_bytes();");
 }
