@@ -3,7 +3,7 @@
 use std::mem::discriminant;
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, fact_as, or_default, part, text, Comparison, COMPARED};
+use super::comparison::{compare_fields, fact, fact_as, or_default, part, rules, text, Comparison, COMPARED};
 use super::show::Show;
 use super::types;
 use lexibus_codegen::facts::address;
@@ -98,29 +98,23 @@ fn register(old: &RegisterBinding, new: &RegisterBinding, comparison: &mut Compa
     }, COMPARED => [space, address, bit_offset]);
 }
 
-fn image(old: &ImageBinding, new: &ImageBinding, comparison: &mut Comparison<'_>) {
-    compare_fields!(ImageBinding, old, new, comparison, {
-        bits: fact("length in bits", Judgment::WIRE),
-        ty: types::compare_optional("type in the image", Judgment::WIRE),
-    }, COMPARED => [image, bit_offset]);
-}
+rules!(fn image(ImageBinding) {
+    bits: fact("length in bits", Judgment::WIRE),
+    ty: types::compare_optional("type in the image", Judgment::WIRE),
+}, COMPARED => [image, bit_offset]);
 
-fn window(old: &IndirectBinding, new: &IndirectBinding, comparison: &mut Comparison<'_>) {
-    compare_fields!(IndirectBinding, old, new, comparison, {
-        window: fact("number of the window", Judgment::WIRE),
-        read: part("read through the window", or_default(side)),
-        write: part("written through the window", or_default(side)),
-    }, COMPARED => [space, buses, number]);
-}
+rules!(fn window(IndirectBinding) {
+    window: fact("number of the window", Judgment::WIRE),
+    read: part("read through the window", or_default(side)),
+    write: part("written through the window", or_default(side)),
+}, COMPARED => [space, buses, number]);
 
-fn side(old: &WindowSide, new: &WindowSide, comparison: &mut Comparison<'_>) {
-    compare_fields!(WindowSide, old, new, comparison, {
-        number: fact("item of the number", Judgment::WIRE),
-        value: fact("item of the value", Judgment::WIRE),
-        number_first: fact("number is written first", Judgment::WIRE),
-        clears: fact("the device clears the number", Judgment::BEHAVIOR),
-        wait: fact("wait in ms", Judgment::BEHAVIOR),
-        timeout: fact("timeout in ms", Judgment::BEHAVIOR),
-        procedure: fact("procedure", Judgment::BEHAVIOR),
-    });
-}
+rules!(fn side(WindowSide) {
+    number: fact("item of the number", Judgment::WIRE),
+    value: fact("item of the value", Judgment::WIRE),
+    number_first: fact("number is written first", Judgment::WIRE),
+    clears: fact("the device clears the number", Judgment::BEHAVIOR),
+    wait: fact("wait in ms", Judgment::BEHAVIOR),
+    timeout: fact("timeout in ms", Judgment::BEHAVIOR),
+    procedure: fact("procedure", Judgment::BEHAVIOR),
+});

@@ -2,7 +2,7 @@
 
 use super::change::{Change, Judgment};
 use super::comparison::{
-    compare_fields, each, fact, fact_as, list, or_default, part, text, Comparison, Elements, COMPARED, KEY, POSITION,
+    each, fact, fact_as, list, or_default, part, rules, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::pairing::pairs;
 use super::show::Show;
@@ -37,42 +37,38 @@ pub fn compare_devices(old_catalog: &Catalog, old: &Device, new_catalog: &Catalo
     changes
 }
 
-/// Compares data that devices, modules and submodules share.
-fn shared(old: &Catalog, new: &Catalog, comparison: &mut Comparison<'_>) {
-    compare_fields!(Catalog, old, new, comparison, {
-        code_tables: codes::tables(),
-        unit_diagnoses: profinet::unit_diagnoses(),
-        families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
-            .judged(Judgment::NONE, Judgment::NONE), family),
-        graphics: part("the catalog", each("pictures", Judgment::NONE, |graphic: &Graphic| {
-            format!("{} {}", graphic.id, graphic.file)
-        })),
-        vendor_names: part("the catalog", text("name of the vendor in other languages")),
-        descriptions: part("the catalog", text("description in other languages")),
-        vendor_urls: part("the catalog", fact("URLs of the vendor", Judgment::NONE)),
-        format_version: part("the file", text("version of the format")),
-        profile_header: part("the file", or_default(profile_header)),
-        unused_texts: part("the catalog", each("texts without a use", Judgment::NONE, |text: &UnusedText| {
-            format!("{} {}{}", text.id, text.text, text.translations.show())
-        })),
-        extensions: part("the catalog", extensions),
-    }, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
-}
+// Compares data that devices, modules and submodules share.
+rules!(fn shared(Catalog) {
+    code_tables: codes::tables(),
+    unit_diagnoses: profinet::unit_diagnoses(),
+    families: list(Elements::titled(|family: &Family| format!("family {}", family.id))
+        .judged(Judgment::NONE, Judgment::NONE), family),
+    graphics: part("the catalog", each("pictures", Judgment::NONE, |graphic: &Graphic| {
+        format!("{} {}", graphic.id, graphic.file)
+    })),
+    vendor_names: part("the catalog", text("name of the vendor in other languages")),
+    descriptions: part("the catalog", text("description in other languages")),
+    vendor_urls: part("the catalog", fact("URLs of the vendor", Judgment::NONE)),
+    format_version: part("the file", text("version of the format")),
+    profile_header: part("the file", or_default(profile_header)),
+    unused_texts: part("the catalog", each("texts without a use", Judgment::NONE, |text: &UnusedText| {
+        format!("{} {}{}", text.id, text.text, text.translations.show())
+    })),
+    extensions: part("the catalog", extensions),
+}, "the files that are compared" => [files], COMPARED => [devices, modules, submodules, types]);
 
-fn profile_header(old: &ProfileHeader, new: &ProfileHeader, comparison: &mut Comparison<'_>) {
-    compare_fields!(ProfileHeader, old, new, comparison, {
-        identification: text("identification of the profile"),
-        revision: text("revision of the profile"),
-        name: text("name of the profile"),
-        source: text("source of the profile"),
-        class: text("class of the profile"),
-        date: text("date of the profile"),
-        additional_information: text("additional information"),
-        iso_part: text("part of ISO 15745"),
-        iso_edition: text("edition of ISO 15745"),
-        technology: text("technology of the profile"),
-    });
-}
+rules!(fn profile_header(ProfileHeader) {
+    identification: text("identification of the profile"),
+    revision: text("revision of the profile"),
+    name: text("name of the profile"),
+    source: text("source of the profile"),
+    class: text("class of the profile"),
+    date: text("date of the profile"),
+    additional_information: text("additional information"),
+    iso_part: text("part of ISO 15745"),
+    iso_edition: text("edition of ISO 15745"),
+    technology: text("technology of the profile"),
+});
 
 /// Compares the devices. If both descriptions have exactly one device, these two are compared. Otherwise, devices are
 /// paired if product code, name and identifier are equal, and the remaining ones by name.
@@ -123,10 +119,8 @@ fn owned<'a, T>(
     comparison.owner.clear();
 }
 
-fn family(old: &Family, new: &Family, comparison: &mut Comparison<'_>) {
-    compare_fields!(Family, old, new, comparison, {
-        name: text("name"),
-        names,
-        descriptions: fact_as("description", Judgment::NONE, |list: &Vec<LocalText>| list.show()),
-    }, KEY => [id], POSITION => [origin]);
-}
+rules!(fn family(Family) {
+    name: text("name"),
+    names,
+    descriptions: fact_as("description", Judgment::NONE, |list: &Vec<LocalText>| list.show()),
+}, KEY => [id], POSITION => [origin]);

@@ -1,7 +1,7 @@
 //! Compares code tables, which become enumerations in Rust.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, list, text, Comparison, Elements, COMPARED, POSITION};
+use super::comparison::{compare_fields, fact, list, rules, text, Comparison, Elements, COMPARED, POSITION};
 use super::conditions::only_on;
 use super::names::identifier;
 use lexibus_codegen::ir::{CodeRow, CodeTable};
@@ -12,15 +12,13 @@ pub(super) fn tables() -> impl Fn(&Vec<CodeTable>, &Vec<CodeTable>, &mut Compari
     list(elements.paired_by(|table| identifier(&table.name)).judged(Judgment::API_COMPATIBLE, Judgment::API), table)
 }
 
-fn table(old: &CodeTable, new: &CodeTable, comparison: &mut Comparison<'_>) {
-    compare_fields!(CodeTable, old, new, comparison, {
-        name,
-        columns: fact("columns", Judgment::API),
-        rows: list(rows(), row),
-        buses: only_on,
-        documentation, doubts, stated_by,
-    }, POSITION => [origin]);
-}
+rules!(fn table(CodeTable) {
+    name,
+    columns: fact("columns", Judgment::API),
+    rows: list(rows(), row),
+    buses: only_on,
+    documentation, doubts, stated_by,
+}, POSITION => [origin]);
 
 /// Compares the rows of a code table. Added rows are breaking changes, because Rust code can match all codes
 /// exhaustively.

@@ -125,13 +125,26 @@ impl<'a> Comparison<'a> {
 macro_rules! compare_fields {
     ($type:ident, $old:expr, $new:expr, $comparison:expr, { $($field:ident $(: $rule:expr)?),* $(,)? }
         $(, $reason:expr => [$($ignored:ident),+])* $(,)?) => {{
-        let (old, new, comparison): (&$type, &$type, &mut Comparison<'_>) = ($old, $new, $comparison);
+        let (old, new, comparison): (&$type, &$type, &mut $crate::compare::comparison::Comparison<'_>) =
+            ($old, $new, $comparison);
         let $type { $($field: _,)* $($($ignored: _,)+)* } = old;
         let _reasons: &[&str] = &[$($reason),*];
         $(($crate::compare::comparison::rule!($field $(, $rule)?))(&old.$field, &new.$field, comparison);)*
     }};
 }
 pub(super) use compare_fields;
+
+/// Defines a function that compares two values of a type by [`compare_fields`].
+macro_rules! rules {
+    ($visibility:vis fn $name:ident($type:ident) $($rules:tt)*) => {
+        $visibility fn $name(
+            old: &$type, new: &$type, comparison: &mut $crate::compare::comparison::Comparison<'_>,
+        ) {
+            $crate::compare::comparison::compare_fields!($type, old, new, comparison, $($rules)*);
+        }
+    };
+}
+pub(super) use rules;
 
 /// Selects the rule of a field: the rule that the caller gives, or otherwise the common rule of all fields with this
 /// name.

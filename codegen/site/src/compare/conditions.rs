@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, judged, text, Comparison};
+use super::comparison::{fact, judged, rules, text, Comparison};
 use super::show::Show;
 use lexibus_codegen::ir::{Availability, Bus, Buses, Condition};
 
@@ -38,14 +38,12 @@ pub(super) fn only_on(old: &Buses, new: &Buses, comparison: &mut Comparison<'_>)
     restricted("only on")(&Vec::<Bus>::from(*old), &Vec::from(*new), comparison);
 }
 
-/// Compares the models, firmware versions, options and buses to which an element is restricted.
-pub(super) fn availability(old: &Availability, new: &Availability, comparison: &mut Comparison<'_>) {
-    compare_fields!(Availability, old, new, comparison, {
-        models: restricted("models"),
-        since: fact("since firmware", Judgment::BEHAVIOR),
-        until: fact("until firmware", Judgment::BEHAVIOR),
-        replaced_by: text("replaced by"),
-        options: fact("needs", Judgment::BEHAVIOR),
-        buses: only_on,
-    });
-}
+// Compares the models, firmware versions, options and buses to which an element is restricted.
+rules!(pub(super) fn availability(Availability) {
+    models: restricted("models"),
+    since: fact("since firmware", Judgment::BEHAVIOR),
+    until: fact("until firmware", Judgment::BEHAVIOR),
+    replaced_by: text("replaced by"),
+    options: fact("needs", Judgment::BEHAVIOR),
+    buses: only_on,
+});

@@ -2,7 +2,7 @@
 
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, each, each_positioned, fact, fact_as, judged, list, optional, or_default, part, slice, text,
+    compare_fields, each, each_positioned, fact, fact_as, judged, list, optional, or_default, part, rules, slice, text,
     Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
@@ -84,46 +84,41 @@ fn node_ids(range: &Option<(u8, u8)>) -> String {
     range.map(|(first, last)| format!("{first} to {last}")).unwrap_or_default()
 }
 
-/// Compares the headers of two files.
-fn header(old: &Header, new: &Header, comparison: &mut Comparison<'_>) {
-    compare_fields!(Header, old, new, comparison, {
-        file_name: text("name of the file"),
-        file_version: text("version of the file"),
-        file_revision: text("revision of the file"),
-        format_version: text("version of the format"),
-        description: text("description of the file"),
-        creation_time: text("time of creation"),
-        creation_date: text("date of creation"),
-        created_by: text("created by"),
-        modification_time: text("time of modification"),
-        modification_date: text("date of modification"),
-        modified_by: text("modified by"),
-        last_eds: text("made from"),
-        comments: text("comments"),
-    });
-}
+rules!(fn header(Header) {
+    file_name: text("name of the file"),
+    file_version: text("version of the file"),
+    file_revision: text("revision of the file"),
+    format_version: text("version of the format"),
+    description: text("description of the file"),
+    creation_time: text("time of creation"),
+    creation_date: text("date of creation"),
+    created_by: text("created by"),
+    modification_time: text("time of modification"),
+    modification_date: text("date of modification"),
+    modified_by: text("modified by"),
+    last_eds: text("made from"),
+    comments: text("comments"),
+});
 
-fn canopen(old: &CanOpenSettings, new: &CanOpenSettings, comparison: &mut Comparison<'_>) {
-    compare_fields!(CanOpenSettings, old, new, comparison, {
-        bit_rates: judged("bit rates in kbit/s", |old: &Vec<u16>, new: &Vec<u16>| {
-            let is_lost = old.iter().any(|value| !new.contains(value));
-            if is_lost { Judgment::BEHAVIOR } else { Judgment::BEHAVIOR_COMPATIBLE }
-        }),
-        auto_bit_rate: fact("detects the bit rate", Judgment::BEHAVIOR),
-        boot_up_master: fact("boot-up master", Judgment::BEHAVIOR),
-        boot_up_slave: fact("boot-up slave", Judgment::BEHAVIOR),
-        granularity: fact("granularity of mappings in bits", Judgment::BEHAVIOR),
-        dynamic_channels_supported: fact("support of dynamic channels", Judgment::BEHAVIOR),
-        group_messaging: fact("multiplexed PDOs", Judgment::BEHAVIOR),
-        rx_pdos: fact("number of RPDOs", Judgment::BEHAVIOR),
-        tx_pdos: fact("number of TPDOs", Judgment::BEHAVIOR),
-        lss: fact("layer setting services", Judgment::BEHAVIOR),
-        compact_pdo: fact("sub-indices of implicit PDOs", Judgment::BEHAVIOR),
-        dummies: fact("dummy entries", Judgment::BEHAVIOR),
-        dummies_given: fact("list of dummy entries", Judgment::NONE),
-        dynamic_channels: each("dynamic channels", Judgment::BEHAVIOR, dynamic_channel),
-    }, POSITION => [at]);
-}
+rules!(fn canopen(CanOpenSettings) {
+    bit_rates: judged("bit rates in kbit/s", |old: &Vec<u16>, new: &Vec<u16>| {
+        let is_lost = old.iter().any(|value| !new.contains(value));
+        if is_lost { Judgment::BEHAVIOR } else { Judgment::BEHAVIOR_COMPATIBLE }
+    }),
+    auto_bit_rate: fact("detects the bit rate", Judgment::BEHAVIOR),
+    boot_up_master: fact("boot-up master", Judgment::BEHAVIOR),
+    boot_up_slave: fact("boot-up slave", Judgment::BEHAVIOR),
+    granularity: fact("granularity of mappings in bits", Judgment::BEHAVIOR),
+    dynamic_channels_supported: fact("support of dynamic channels", Judgment::BEHAVIOR),
+    group_messaging: fact("multiplexed PDOs", Judgment::BEHAVIOR),
+    rx_pdos: fact("number of RPDOs", Judgment::BEHAVIOR),
+    tx_pdos: fact("number of TPDOs", Judgment::BEHAVIOR),
+    lss: fact("layer setting services", Judgment::BEHAVIOR),
+    compact_pdo: fact("sub-indices of implicit PDOs", Judgment::BEHAVIOR),
+    dummies: fact("dummy entries", Judgment::BEHAVIOR),
+    dummies_given: fact("list of dummy entries", Judgment::NONE),
+    dynamic_channels: each("dynamic channels", Judgment::BEHAVIOR, dynamic_channel),
+}, POSITION => [at]);
 
 fn dynamic_channel(channel: &DynamicChannel) -> String {
     let DynamicChannel { data_type, direction, range, offset, difference, max_number } = channel;
@@ -149,21 +144,19 @@ fn modbus_tables(old: &[ModbusTable], new: &[ModbusTable], comparison: &mut Comp
     }
 }
 
-fn modbus_table(old: &ModbusTable, new: &ModbusTable, comparison: &mut Comparison<'_>) {
-    compare_fields!(ModbusTable, old, new, comparison, {
-        // An empty list means that all functions are accepted. If the preferred function was removed, a driver uses
-        // another one, so its requests change.
-        functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
-            let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
-            if is_lost { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
-        }),
-        max_read: judged("longest read", shorter),
-        max_write: judged("longest write", shorter),
-        split: judged("longer values in several requests", |old: &bool, _: &bool| {
-            if *old { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
-        }),
-    }, KEY => [space]);
-}
+rules!(fn modbus_table(ModbusTable) {
+    // An empty list means that all functions are accepted. If the preferred function was removed, a driver uses
+    // another one, so its requests change.
+    functions: judged("function codes", |old: &Vec<u8>, new: &Vec<u8>| {
+        let is_lost = !new.is_empty() && (old.is_empty() || old.iter().any(|value| !new.contains(value)));
+        if is_lost { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
+    }),
+    max_read: judged("longest read", shorter),
+    max_write: judged("longest write", shorter),
+    split: judged("longer values in several requests", |old: &bool, _: &bool| {
+        if *old { Judgment::WIRE } else { Judgment::WIRE_COMPATIBLE }
+    }),
+}, KEY => [space]);
 
 /// Returns the effects of a changed maximum request length.
 fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgment {
@@ -172,61 +165,51 @@ fn shorter(old: &Option<u16>, new: &Option<u16>) -> Judgment {
     Judgment { wire, ..Judgment::NONE }
 }
 
-fn commissioning(old: &Commissioning, new: &Commissioning, comparison: &mut Comparison<'_>) {
-    compare_fields!(Commissioning, old, new, comparison, {
-        node_id: fact("node-ID", Judgment::WIRE),
-        node_name: text("name of the node"),
-        bit_rate: fact("bit rate in kbit/s", Judgment::WIRE),
-        net_number: fact("number of the network", Judgment::BEHAVIOR),
-        network_name: text("name of the network"),
-        manager: fact("CANopen manager", Judgment::BEHAVIOR),
-        lss_serial_number: fact("serial number for layer setting services", Judgment::BEHAVIOR),
-        connected_modules: fact("connected modules", Judgment::BEHAVIOR),
-    });
-}
+rules!(fn commissioning(Commissioning) {
+    node_id: fact("node-ID", Judgment::WIRE),
+    node_name: text("name of the node"),
+    bit_rate: fact("bit rate in kbit/s", Judgment::WIRE),
+    net_number: fact("number of the network", Judgment::BEHAVIOR),
+    network_name: text("name of the network"),
+    manager: fact("CANopen manager", Judgment::BEHAVIOR),
+    lss_serial_number: fact("serial number for layer setting services", Judgment::BEHAVIOR),
+    connected_modules: fact("connected modules", Judgment::BEHAVIOR),
+});
 
-fn given(old: &GivenNumber, new: &GivenNumber, comparison: &mut Comparison<'_>) {
-    compare_fields!(GivenNumber, old, new, comparison, {
-        name,
-        unit: fact("unit", Judgment::API),
-        models: fact_as("numbers of models", Judgment::BEHAVIOR, constants),
-        documentation, doubts,
-    }, POSITION => [origin]);
-}
+rules!(fn given(GivenNumber) {
+    name,
+    unit: fact("unit", Judgment::API),
+    models: fact_as("numbers of models", Judgment::BEHAVIOR, constants),
+    documentation, doubts,
+}, POSITION => [origin]);
 
 /// Formats names with their values, such as `Small 5, Large 10`.
 fn constants<Name: Show>(constants: &Vec<(Name, Value)>) -> String {
     constants.show()
 }
 
-fn composite(old: &Composite, new: &Composite, comparison: &mut Comparison<'_>) {
-    compare_fields!(Composite, old, new, comparison, {
-        name, names,
-        parts: fact("parts", Judgment::API_AND_WIRE),
-        base: fact("base", Judgment::WIRE),
-        sign: fact("sign", Judgment::API_AND_WIRE),
-        unit: fact("unit", Judgment::API_AND_BEHAVIOR),
-        documentation, doubts,
-    }, POSITION => [origin]);
-}
+rules!(fn composite(Composite) {
+    name, names,
+    parts: fact("parts", Judgment::API_AND_WIRE),
+    base: fact("base", Judgment::WIRE),
+    sign: fact("sign", Judgment::API_AND_WIRE),
+    unit: fact("unit", Judgment::API_AND_BEHAVIOR),
+    documentation, doubts,
+}, POSITION => [origin]);
 
-fn model(old: &Variant, new: &Variant, comparison: &mut Comparison<'_>) {
-    compare_fields!(Variant, old, new, comparison, {
-        name,
-        identity: identity,
-        constants: fact_as("constants", Judgment::BEHAVIOR, constants),
-        documentation, doubts,
-    }, POSITION => [origin]);
-}
+rules!(fn model(Variant) {
+    name,
+    identity: identity,
+    constants: fact_as("constants", Judgment::BEHAVIOR, constants),
+    documentation, doubts,
+}, POSITION => [origin]);
 
-fn axes(old: &AxisRule, new: &AxisRule, comparison: &mut Comparison<'_>) {
-    compare_fields!(AxisRule, old, new, comparison, {
-        axes: judged("number of axes", |old: &u8, new: &u8| {
-            if new < old { Judgment::API_AND_WIRE } else { Judgment::ADDITION }
-        }),
-        models: restricted("models"),
-        rules: each("addresses of further axes", Judgment::WIRE, |rule: &AxisRange| {
-            format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show())
-        }),
-    });
-}
+rules!(fn axes(AxisRule) {
+    axes: judged("number of axes", |old: &u8, new: &u8| {
+        if new < old { Judgment::API_AND_WIRE } else { Judgment::ADDITION }
+    }),
+    models: restricted("models"),
+    rules: each("addresses of further axes", Judgment::WIRE, |rule: &AxisRange| {
+        format!("{} to {}: {}", index(&rule.indices.0), index(&rule.indices.1), rule.step.show())
+    }),
+});

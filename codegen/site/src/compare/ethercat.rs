@@ -2,7 +2,8 @@
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, each, fact, fact_as, joined, list, optional, or_default, text, Comparison, Elements, KEY, POSITION,
+    compare_fields, each, fact, fact_as, joined, list, optional, or_default, rules, text, Comparison, Elements, KEY,
+    POSITION,
 };
 use super::show::{index, Show};
 use lexibus_codegen::ir::{
@@ -11,36 +12,34 @@ use lexibus_codegen::ir::{
 };
 use lexibus_codegen::number::{self, bytes, hex, hex16, hex32};
 
-pub(super) fn compare(old: &EtherCatSettings, new: &EtherCatSettings, comparison: &mut Comparison<'_>) {
-    compare_fields!(EtherCatSettings, old, new, comparison, {
-        physics: fact("ports", Judgment::BEHAVIOR),
-        group: text("family"),
-        hides: each("hidden revisions", Judgment::NONE, hidden),
-        invisible: fact("hidden in lists of devices", Judgment::NONE),
-        fmmus: each("FMMUs", Judgment::WIRE, fmmu),
-        sync_units: each("sync units", Judgment::WIRE, sync_unit),
-        mailbox: optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox),
-        clocks: optional("distributed clocks", Judgment::ADDITION, Judgment::API_AND_WIRE, clocks),
-        slots: optional("slots", Judgment::ADDITION, Judgment::API_AND_WIRE, slots),
-        registers: each("registers of the slave controller", Judgment::WIRE, |(address, value): &(u16, u32)| {
-            format!("{} = {}", hex16(*address), hex(*value))
-        }),
-        eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
-        timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
-        ebus_current: fact("E-bus current in mA", Judgment::BEHAVIOR),
-        identification_register: fact_as("identification register", Judgment::WIRE, |register: &Option<u16>| {
-            register.map(hex16).unwrap_or_default()
-        }),
-        identification_in_al_status: fact("identification in the AL status code", Judgment::WIRE),
-        without_lrw: fact("no LRW datagrams", Judgment::WIRE),
-        safe_op_without_sync: fact("SafeOp before synchronization", Judgment::BEHAVIOR),
-        tool: or_default(tool),
-        controller: or_default(controller),
-        station_alias: fact("station alias", Judgment::BEHAVIOR),
-        urls: each("URLs", Judgment::NONE, |url: &LocalText| format!("{} {}", url.language, url.text)),
-        picture: fact("picture", Judgment::NONE),
-    });
-}
+rules!(pub(super) fn compare(EtherCatSettings) {
+    physics: fact("ports", Judgment::BEHAVIOR),
+    group: text("family"),
+    hides: each("hidden revisions", Judgment::NONE, hidden),
+    invisible: fact("hidden in lists of devices", Judgment::NONE),
+    fmmus: each("FMMUs", Judgment::WIRE, fmmu),
+    sync_units: each("sync units", Judgment::WIRE, sync_unit),
+    mailbox: optional("mailbox", Judgment::ADDITION, Judgment::API_AND_WIRE, mailbox),
+    clocks: optional("distributed clocks", Judgment::ADDITION, Judgment::API_AND_WIRE, clocks),
+    slots: optional("slots", Judgment::ADDITION, Judgment::API_AND_WIRE, slots),
+    registers: each("registers of the slave controller", Judgment::WIRE, |(address, value): &(u16, u32)| {
+        format!("{} = {}", hex16(*address), hex(*value))
+    }),
+    eeprom: optional("EEPROM", Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR, eeprom),
+    timeouts: fact("timeouts in ms", Judgment::BEHAVIOR),
+    ebus_current: fact("E-bus current in mA", Judgment::BEHAVIOR),
+    identification_register: fact_as("identification register", Judgment::WIRE, |register: &Option<u16>| {
+        register.map(hex16).unwrap_or_default()
+    }),
+    identification_in_al_status: fact("identification in the AL status code", Judgment::WIRE),
+    without_lrw: fact("no LRW datagrams", Judgment::WIRE),
+    safe_op_without_sync: fact("SafeOp before synchronization", Judgment::BEHAVIOR),
+    tool: or_default(tool),
+    controller: or_default(controller),
+    station_alias: fact("station alias", Judgment::BEHAVIOR),
+    urls: each("URLs", Judgment::NONE, |url: &LocalText| format!("{} {}", url.language, url.text)),
+    picture: fact("picture", Judgment::NONE),
+});
 
 /// Formats the product code and revision of a device that this description hides in configuration tools.
 fn hidden(identity: &(Option<u32>, Option<u32>)) -> String {
@@ -53,26 +52,22 @@ fn with_flags(text: String, flags: &[(bool, &str)]) -> String {
     std::iter::once(text.as_str()).chain(set).collect::<Vec<_>>().join(" ")
 }
 
-fn tool(old: &ToolSettings, new: &ToolSettings, comparison: &mut Comparison<'_>) {
-    compare_fields!(ToolSettings, old, new, comparison, {
-        check_product_code: fact("check of the product code", Judgment::BEHAVIOR),
-        check_revision: fact("check of the revision", Judgment::BEHAVIOR),
-        check_serial_number: fact("check of the serial number", Judgment::BEHAVIOR),
-        sync_manager_class: fact("class of sync manager settings", Judgment::BEHAVIOR),
-        safe_op_in_config_mode: fact("SafeOp in configuration mode", Judgment::BEHAVIOR),
-        module_pdo_group: fact("module PDO group", Judgment::BEHAVIOR),
-        download_module_list: fact("download of the module list", Judgment::BEHAVIOR),
-        show_hideable_sub_devices: fact("shows hideable sub-devices", Judgment::NONE),
-    });
-}
+rules!(fn tool(ToolSettings) {
+    check_product_code: fact("check of the product code", Judgment::BEHAVIOR),
+    check_revision: fact("check of the revision", Judgment::BEHAVIOR),
+    check_serial_number: fact("check of the serial number", Judgment::BEHAVIOR),
+    sync_manager_class: fact("class of sync manager settings", Judgment::BEHAVIOR),
+    safe_op_in_config_mode: fact("SafeOp in configuration mode", Judgment::BEHAVIOR),
+    module_pdo_group: fact("module PDO group", Judgment::BEHAVIOR),
+    download_module_list: fact("download of the module list", Judgment::BEHAVIOR),
+    show_hideable_sub_devices: fact("shows hideable sub-devices", Judgment::NONE),
+});
 
-fn controller(old: &SlaveController, new: &SlaveController, comparison: &mut Comparison<'_>) {
-    compare_fields!(SlaveController, old, new, comparison, {
-        memory_bytes: fact("memory of the slave controller in bytes", Judgment::BEHAVIOR),
-        sync_managers: fact("sync managers of the slave controller", Judgment::BEHAVIOR),
-        fmmus: fact("FMMUs of the slave controller", Judgment::BEHAVIOR),
-    });
-}
+rules!(fn controller(SlaveController) {
+    memory_bytes: fact("memory of the slave controller in bytes", Judgment::BEHAVIOR),
+    sync_managers: fact("sync managers of the slave controller", Judgment::BEHAVIOR),
+    fmmus: fact("FMMUs of the slave controller", Judgment::BEHAVIOR),
+});
 
 fn fmmu(fmmu: &Fmmu) -> String {
     let Fmmu { purpose, sync_manager, sync_unit, op_only } = fmmu;
@@ -107,26 +102,22 @@ pub(super) fn mailbox(old: &Mailbox, new: &Mailbox, comparison: &mut Comparison<
     });
 }
 
-fn protocol(old: &Protocol, new: &Protocol, comparison: &mut Comparison<'_>) {
-    compare_fields!(Protocol, old, new, comparison, {
-        attributes: fact("attributes", Judgment::BEHAVIOR),
-        init_commands: init_commands(),
-    });
-}
+rules!(fn protocol(Protocol) {
+    attributes: fact("attributes", Judgment::BEHAVIOR),
+    init_commands: init_commands(),
+});
 
-fn coe(old: &Coe, new: &Coe, comparison: &mut Comparison<'_>) {
-    compare_fields!(Coe, old, new, comparison, {
-        sdo_info: fact("SDO information", Judgment::BEHAVIOR),
-        pdo_assign: fact("writable PDO assignment", Judgment::WIRE),
-        pdo_config: fact("writable PDO mapping", Judgment::WIRE),
-        pdo_upload: fact("the master reads the assignment", Judgment::WIRE),
-        complete_access: fact("complete access", Judgment::WIRE),
-        segmented_sdo: fact("segmented SDO transfer", Judgment::WIRE),
-        diag_history: fact("diagnosis history", Judgment::BEHAVIOR),
-        attributes: fact("attributes", Judgment::BEHAVIOR),
-        init_commands: init_commands(),
-    });
-}
+rules!(fn coe(Coe) {
+    sdo_info: fact("SDO information", Judgment::BEHAVIOR),
+    pdo_assign: fact("writable PDO assignment", Judgment::WIRE),
+    pdo_config: fact("writable PDO mapping", Judgment::WIRE),
+    pdo_upload: fact("the master reads the assignment", Judgment::WIRE),
+    complete_access: fact("complete access", Judgment::WIRE),
+    segmented_sdo: fact("segmented SDO transfer", Judgment::WIRE),
+    diag_history: fact("diagnosis history", Judgment::BEHAVIOR),
+    attributes: fact("attributes", Judgment::BEHAVIOR),
+    init_commands: init_commands(),
+});
 
 /// Compares the start-up commands of the master. The commands are paired by their objects.
 fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Comparison<'_>) {
@@ -135,38 +126,32 @@ fn init_commands() -> impl Fn(&Vec<InitCommand>, &Vec<InitCommand>, &mut Compari
     list(Elements::titled(title).judged(Judgment::WIRE, Judgment::WIRE), init_command)
 }
 
-fn init_command(old: &InitCommand, new: &InitCommand, comparison: &mut Comparison<'_>) {
-    compare_fields!(InitCommand, old, new, comparison, {
-        transitions: fact("transitions", Judgment::WIRE),
-        data: fact_as("data", Judgment::WIRE, |data: &Vec<u8>| bytes(data)),
-        depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
-        depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
-        complete_access: fact("complete access", Judgment::WIRE),
-        fixed: fact("fixed", Judgment::NONE),
-        adapt: fact("adapted by the master", Judgment::WIRE),
-        overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
-        comment: text("comment"),
-    }, KEY => [index, sub_index], POSITION => [origin]);
-}
+rules!(fn init_command(InitCommand) {
+    transitions: fact("transitions", Judgment::WIRE),
+    data: fact_as("data", Judgment::WIRE, |data: &Vec<u8>| bytes(data)),
+    depends_on_slot: fact("index grows with the slot", Judgment::WIRE),
+    depends_on_slot_group: fact("index grows with the slot group", Judgment::WIRE),
+    complete_access: fact("complete access", Judgment::WIRE),
+    fixed: fact("fixed", Judgment::NONE),
+    adapt: fact("adapted by the master", Judgment::WIRE),
+    overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
+    comment: text("comment"),
+}, KEY => [index, sub_index], POSITION => [origin]);
 
-fn clocks(old: &DistributedClocks, new: &DistributedClocks, comparison: &mut Comparison<'_>) {
-    compare_fields!(DistributedClocks, old, new, comparison, {
-        attributes: fact("attributes", Judgment::BEHAVIOR),
-        modes: list(Elements::titled(|mode: &ClockMode| format!("mode {}", mode.name)), clock_mode),
-    });
-}
+rules!(fn clocks(DistributedClocks) {
+    attributes: fact("attributes", Judgment::BEHAVIOR),
+    modes: list(Elements::titled(|mode: &ClockMode| format!("mode {}", mode.name)), clock_mode),
+});
 
-fn clock_mode(old: &ClockMode, new: &ClockMode, comparison: &mut Comparison<'_>) {
-    compare_fields!(ClockMode, old, new, comparison, {
-        description: text("description"),
-        assign_activate: fact_as("AssignActivate", Judgment::WIRE, |value| hex(*value)),
-        cycle_sync0: fact_as("cycle of Sync0", Judgment::WIRE, clock_time),
-        shift_sync0: fact_as("shift of Sync0", Judgment::WIRE, clock_time),
-        cycle_sync1: fact_as("cycle of Sync1", Judgment::WIRE, clock_time),
-        shift_sync1: fact_as("shift of Sync1", Judgment::WIRE, clock_time),
-        sync_managers: each("sync managers", Judgment::WIRE, clock_sync_manager),
-    }, KEY => [name]);
-}
+rules!(fn clock_mode(ClockMode) {
+    description: text("description"),
+    assign_activate: fact_as("AssignActivate", Judgment::WIRE, |value| hex(*value)),
+    cycle_sync0: fact_as("cycle of Sync0", Judgment::WIRE, clock_time),
+    shift_sync0: fact_as("shift of Sync0", Judgment::WIRE, clock_time),
+    cycle_sync1: fact_as("cycle of Sync1", Judgment::WIRE, clock_time),
+    shift_sync1: fact_as("shift of Sync1", Judgment::WIRE, clock_time),
+    sync_managers: each("sync managers", Judgment::WIRE, clock_sync_manager),
+}, KEY => [name]);
 
 fn clock_time(time: &ClockTime) -> String {
     let ClockTime { nanoseconds, factor, input } = time;
@@ -181,24 +166,22 @@ fn clock_sync_manager(sync_manager: &ClockSyncManager) -> String {
     format!("{number}{sync_type}{}", joined(pdos, pdo))
 }
 
-fn slots(old: &SlotRules, new: &SlotRules, comparison: &mut Comparison<'_>) {
-    compare_fields!(SlotRules, old, new, comparison, {
-        max_slots: fact("maximum number of slots", Judgment::BEHAVIOR),
-        max_groups: fact("maximum number of slot groups", Judgment::BEHAVIOR),
-        index_increment: fact_as("index increment of a slot", Judgment::WIRE, index),
-        pdo_increment: fact("PDO increment of a slot", Judgment::WIRE),
-        group_index_increment: fact_as("index increment of a slot group", Judgment::WIRE, index),
-        group_pdo_increment: fact("PDO increment of a slot group", Judgment::WIRE),
-        download_idents: fact("the master writes module idents", Judgment::WIRE),
-        download_addresses: fact("the master writes module addresses", Judgment::WIRE),
-        download_transition: fact("transition of these writes", Judgment::WIRE),
-        pdo_groups: each("module PDO groups", Judgment::WIRE, pdo_group),
-        groups: text("names of slot groups"),
-        selections: each("arrangements of modules", Judgment::NONE, |(name, modules): &(CompactString, Vec<u32>)| {
-            format!("{name}: {}", modules.show())
-        }),
-    });
-}
+rules!(fn slots(SlotRules) {
+    max_slots: fact("maximum number of slots", Judgment::BEHAVIOR),
+    max_groups: fact("maximum number of slot groups", Judgment::BEHAVIOR),
+    index_increment: fact_as("index increment of a slot", Judgment::WIRE, index),
+    pdo_increment: fact("PDO increment of a slot", Judgment::WIRE),
+    group_index_increment: fact_as("index increment of a slot group", Judgment::WIRE, index),
+    group_pdo_increment: fact("PDO increment of a slot group", Judgment::WIRE),
+    download_idents: fact("the master writes module idents", Judgment::WIRE),
+    download_addresses: fact("the master writes module addresses", Judgment::WIRE),
+    download_transition: fact("transition of these writes", Judgment::WIRE),
+    pdo_groups: each("module PDO groups", Judgment::WIRE, pdo_group),
+    groups: text("names of slot groups"),
+    selections: each("arrangements of modules", Judgment::NONE, |(name, modules): &(CompactString, Vec<u32>)| {
+        format!("{name}: {}", modules.show())
+    }),
+});
 
 fn pdo_group(group: &ModulePdoGroup) -> String {
     let ModulePdoGroup { alignment, rx_pdo, tx_pdo } = group;

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, each, fact, fact_as, or_default, Comparison, COMPARED, POSITION};
+use super::comparison::{compare_fields, each, fact, fact_as, or_default, rules, Comparison, COMPARED, POSITION};
 use super::item;
 use super::names::Identifiers;
 use super::pairing::{Key, Matching};
@@ -166,15 +166,12 @@ fn names(names: [&CompactString; 2], identifiers: [&str; 2], comparison: &mut Co
     }
 }
 
-/// Compares the flags of an object for tools.
-fn tool_flags(old: &ToolFlags, new: &ToolFlags, comparison: &mut Comparison<'_>) {
-    compare_fields!(ToolFlags, old, new, comparison, {
-        attribute: fact("attribute for tools", Judgment::NONE),
-        transition: fact("state transition of the write access", Judgment::BEHAVIOR),
-        sdo_access: fact("SDO access", Judgment::BEHAVIOR),
-        overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
-    });
-}
+rules!(fn tool_flags(ToolFlags) {
+    attribute: fact("attribute for tools", Judgment::NONE),
+    transition: fact("state transition of the write access", Judgment::BEHAVIOR),
+    sdo_access: fact("SDO access", Judgment::BEHAVIOR),
+    overwritten_by_module: fact("replaced by a module", Judgment::WIRE),
+});
 
 /// Compares the facts of a group. The items of the group are compared separately.
 fn facts(old: &Group, new: &Group, identifiers: [&str; 2], comparison: &mut Comparison<'_>) {
@@ -223,14 +220,12 @@ fn has_index_of_items(group: &Group) -> bool {
     !group.items.is_empty() && group.items.iter().all(is_at_index)
 }
 
-fn record(old: &Record, new: &Record, comparison: &mut Comparison<'_>) {
-    compare_fields!(Record, old, new, comparison, {
-        index: fact_as("index", Judgment::WIRE, index),
-        length: fact("length in bytes", Judgment::API_AND_WIRE),
-        transfer_sequence: fact("order of transfer", Judgment::WIRE),
-        changeable_with_bump: fact("a change disturbs operation", Judgment::BEHAVIOR),
-        constants: each("fixed bytes", Judgment::WIRE, |(offset, constant): &(u32, Vec<u8>)| {
-            format!("{offset}: {}", bytes(constant))
-        }),
-    });
-}
+rules!(fn record(Record) {
+    index: fact_as("index", Judgment::WIRE, index),
+    length: fact("length in bytes", Judgment::API_AND_WIRE),
+    transfer_sequence: fact("order of transfer", Judgment::WIRE),
+    changeable_with_bump: fact("a change disturbs operation", Judgment::BEHAVIOR),
+    constants: each("fixed bytes", Judgment::WIRE, |(offset, constant): &(u32, Vec<u8>)| {
+        format!("{offset}: {}", bytes(constant))
+    }),
+});

@@ -3,8 +3,8 @@
 use super::bindings;
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, each, each_positioned, fact, fact_as, joined, judged, list, or_default, slice, text, Comparison,
-    Elements, POSITION,
+    compare_fields, each, each_positioned, fact, fact_as, joined, judged, list, or_default, rules, slice, text,
+    Comparison, Elements, POSITION,
 };
 use super::conditions::{conditions, restricted};
 use super::show::Show;
@@ -58,17 +58,14 @@ pub(super) fn compare_named(
     }, POSITION => [origin, at]);
 }
 
-/// Compares the references to related items.
-fn related(old: &RelatedItems, new: &RelatedItems, comparison: &mut Comparison<'_>) {
-    compare_fields!(RelatedItems, old, new, comparison, {
-        same_as: fact("same value as", Judgment::NONE),
-        same_quantity: fact("same quantity as", Judgment::NONE),
-        upper_half: fact("upper half", Judgment::BEHAVIOR),
-        valid_count: fact("number of valid elements", Judgment::BEHAVIOR),
-        id: text("identifier in the file"),
-        unsuitable_values: text("unsuitable named values"),
-    });
-}
+rules!(fn related(RelatedItems) {
+    same_as: fact("same value as", Judgment::NONE),
+    same_quantity: fact("same quantity as", Judgment::NONE),
+    upper_half: fact("upper half", Judgment::BEHAVIOR),
+    valid_count: fact("number of valid elements", Judgment::BEHAVIOR),
+    id: text("identifier in the file"),
+    unsuitable_values: text("unsuitable named values"),
+});
 
 /// Returns the effects of changed access rights.
 fn access_effects(old: &Access, new: &Access) -> Judgment {
@@ -198,14 +195,12 @@ fn value(item: &Item, value: &Option<Value>, types: &[TypeDef]) -> String {
     value.as_ref().map(|value| facts::item::value(item, value, types)).unwrap_or_default()
 }
 
-fn configured(old: &Configured, new: &Configured, comparison: &mut Comparison<'_>) {
-    compare_fields!(Configured, old, new, comparison, {
-        value: judged("configured value", stated_effects),
-        denotation: text("denotation"),
-        upload_file: text("upload file"),
-        download_file: fact("download file", Judgment::BEHAVIOR),
-    });
-}
+rules!(fn configured(Configured) {
+    value: judged("configured value", stated_effects),
+    denotation: text("denotation"),
+    upload_file: text("upload file"),
+    download_file: fact("download file", Judgment::BEHAVIOR),
+});
 
 fn quantity(old: &Quantity, new: &Quantity, comparison: &mut Comparison<'_>) {
     compare_fields!(Quantity, old, new, comparison, {
@@ -241,13 +236,11 @@ fn sentinels(old: &[(Value, CompactString)], new: &[(Value, CompactString)], com
     comparison.texts("meaning of special values", meanings(old), meanings(new), Judgment::NONE);
 }
 
-fn machine_unit(old: &MachineUnit, new: &MachineUnit, comparison: &mut Comparison<'_>) {
-    compare_fields!(MachineUnit, old, new, comparison, {
-        unit: fact("machine unit", Judgment::API),
-        times: fact("multiplied by", Judgment::API),
-        over: fact("divided by", Judgment::API),
-    });
-}
+rules!(fn machine_unit(MachineUnit) {
+    unit: fact("machine unit", Judgment::API),
+    times: fact("multiplied by", Judgment::API),
+    over: fact("divided by", Judgment::API),
+});
 
 /// Formats a conversion without its source position, such as `250 = 25 °C`.
 fn conversion(conversion: &Conversion) -> String {
@@ -258,27 +251,25 @@ fn conversion(conversion: &Conversion) -> String {
     format!("{} = {} {unit}{} {model} {by} {text}", raw.show(), value.show(), given.concat())
 }
 
-fn behavior(old: &Behavior, new: &Behavior, comparison: &mut Comparison<'_>) {
-    compare_fields!(Behavior, old, new, comparison, {
-        storage: storage,
-        effective: judged("takes effect", stated_effects),
-        write_when: conditions("writable while"),
-        writable_values: restricted("writable values"),
-        side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
-        self_clearing: fact("cleared by the device", Judgment::BEHAVIOR),
-        write_once: fact("writable only once", Judgment::BEHAVIOR),
-        backup: fact("part of a backup", Judgment::BEHAVIOR),
-        setting: fact("setting of the application", Judgment::NONE),
-        safety: fact("role in functional safety", Judgment::BEHAVIOR),
-        srdo: fact_as("mapping into SRDOs", Judgment::BEHAVIOR, |srdo: &Option<Srdo>| {
-            PLAIN.behavior(&Behavior { srdo: *srdo, ..Behavior::default() }).concat()
-        }),
-        hidden: fact("hidden by tools", Judgment::NONE),
-        pdi_access: fact("access of the device's processor", Judgment::BEHAVIOR),
-        read_states: restricted("readable in states"),
-        write_states: restricted("writable in states"),
-    });
-}
+rules!(fn behavior(Behavior) {
+    storage: storage,
+    effective: judged("takes effect", stated_effects),
+    write_when: conditions("writable while"),
+    writable_values: restricted("writable values"),
+    side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
+    self_clearing: fact("cleared by the device", Judgment::BEHAVIOR),
+    write_once: fact("writable only once", Judgment::BEHAVIOR),
+    backup: fact("part of a backup", Judgment::BEHAVIOR),
+    setting: fact("setting of the application", Judgment::NONE),
+    safety: fact("role in functional safety", Judgment::BEHAVIOR),
+    srdo: fact_as("mapping into SRDOs", Judgment::BEHAVIOR, |srdo: &Option<Srdo>| {
+        PLAIN.behavior(&Behavior { srdo: *srdo, ..Behavior::default() }).concat()
+    }),
+    hidden: fact("hidden by tools", Judgment::NONE),
+    pdi_access: fact("access of the device's processor", Judgment::BEHAVIOR),
+    read_states: restricted("readable in states"),
+    write_states: restricted("writable in states"),
+});
 
 fn storage(old: &Storage, new: &Storage, comparison: &mut Comparison<'_>) {
     let judgment = if *old == Storage::Unknown { Judgment::BEHAVIOR_COMPATIBLE } else { Judgment::BEHAVIOR };

@@ -1,31 +1,31 @@
 //! Compares state machines and procedures.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, fact, fact_as, list, text, Comparison, Elements, COMPARED, KEY, POSITION};
+use super::comparison::{
+    compare_fields, fact, fact_as, list, rules, text, Comparison, Elements, COMPARED, KEY, POSITION,
+};
 use lexibus_codegen::facts::words::PLAIN;
 use lexibus_codegen::ir::{CommandOutcomes, Outcome, Pattern, Procedure, StateMachine, StateOutcome, Step, Transition};
 use lexibus_codegen::number::hex;
 
-pub(super) fn compare(old: &StateMachine, new: &StateMachine, comparison: &mut Comparison<'_>) {
-    compare_fields!(StateMachine, old, new, comparison, {
-        name,
-        status_item: fact("status", Judgment::API_AND_WIRE),
-        control_item: fact("control", Judgment::API_AND_WIRE),
-        state_type: fact("enumeration of the states", Judgment::API),
-        // An added state breaks Rust code that matches all variants of the enumeration.
-        states: list(patterns(|state| format!("state {}", state.name)), pattern),
-        initial: fact("state after power-on", Judgment::BEHAVIOR),
-        faults: fact("fault states", Judgment::BEHAVIOR),
-        commands: list(patterns(|command| format!("command {}", command.name)), pattern),
-        transitions: list(transitions(), transition),
-        outcomes: list(
-            Elements::titled(|outcomes: &CommandOutcomes| format!("command {} by state", outcomes.name))
-                .judged(Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR),
-            command_outcomes,
-        ),
-        documentation, doubts, stated_by,
-    });
-}
+rules!(pub(super) fn compare(StateMachine) {
+    name,
+    status_item: fact("status", Judgment::API_AND_WIRE),
+    control_item: fact("control", Judgment::API_AND_WIRE),
+    state_type: fact("enumeration of the states", Judgment::API),
+    // An added state breaks Rust code that matches all variants of the enumeration.
+    states: list(patterns(|state| format!("state {}", state.name)), pattern),
+    initial: fact("state after power-on", Judgment::BEHAVIOR),
+    faults: fact("fault states", Judgment::BEHAVIOR),
+    commands: list(patterns(|command| format!("command {}", command.name)), pattern),
+    transitions: list(transitions(), transition),
+    outcomes: list(
+        Elements::titled(|outcomes: &CommandOutcomes| format!("command {} by state", outcomes.name))
+            .judged(Judgment::BEHAVIOR_COMPATIBLE, Judgment::BEHAVIOR),
+        command_outcomes,
+    ),
+    documentation, doubts, stated_by,
+});
 
 /// Compares states or commands. States and commands become variants of an enumeration, and Rust code can match all variants.
 fn patterns(title: fn(&Pattern) -> String) -> Elements<Pattern> {
@@ -57,27 +57,23 @@ fn transitions() -> Elements<Transition> {
     .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR)
 }
 
-fn transition(old: &Transition, new: &Transition, comparison: &mut Comparison<'_>) {
-    compare_fields!(Transition, old, new, comparison, {
-        number: text("number"),
-        from: fact("from", Judgment::BEHAVIOR),
-        command: fact("command", Judgment::BEHAVIOR),
-        documentation,
-    }, KEY => [to]);
-}
+rules!(fn transition(Transition) {
+    number: text("number"),
+    from: fact("from", Judgment::BEHAVIOR),
+    command: fact("command", Judgment::BEHAVIOR),
+    documentation,
+}, KEY => [to]);
 
-fn command_outcomes(old: &CommandOutcomes, new: &CommandOutcomes, comparison: &mut Comparison<'_>) {
-    compare_fields!(CommandOutcomes, old, new, comparison, {
-        commands: fact("commands", Judgment::BEHAVIOR),
-        availability,
-        cells: list(
-            Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
-                .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR),
-            state_outcome,
-        ),
-        documentation,
-    }, KEY => [name], POSITION => [origin]);
-}
+rules!(fn command_outcomes(CommandOutcomes) {
+    commands: fact("commands", Judgment::BEHAVIOR),
+    availability,
+    cells: list(
+        Elements::titled(|outcome: &StateOutcome| format!("in state {}", outcome.state))
+            .judged(Judgment::BEHAVIOR, Judgment::BEHAVIOR),
+        state_outcome,
+    ),
+    documentation,
+}, KEY => [name], POSITION => [origin]);
 
 fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Comparison<'_>) {
     let outcome = |outcome: &Outcome| match outcome {
@@ -93,17 +89,15 @@ fn state_outcome(old: &StateOutcome, new: &StateOutcome, comparison: &mut Compar
     }, KEY => [state]);
 }
 
-/// Compares procedures. In Rust, a procedure that consists only of object writes becomes a constant.
-pub(super) fn procedure(old: &Procedure, new: &Procedure, comparison: &mut Comparison<'_>) {
-    compare_fields!(Procedure, old, new, comparison, {
-        name, names,
-        arguments: fact("arguments", Judgment::API),
-        steps: fact_as("steps", Judgment::BEHAVIOR, |steps: &Vec<Step>| {
-            steps.iter().map(step).collect::<Vec<_>>().join(" ")
-        }),
-        documentation, doubts,
-    }, POSITION => [step_spans, origin]);
-}
+// Compares procedures. In Rust, a procedure that consists only of object writes becomes a constant.
+rules!(pub(super) fn procedure(Procedure) {
+    name, names,
+    arguments: fact("arguments", Judgment::API),
+    steps: fact_as("steps", Judgment::BEHAVIOR, |steps: &Vec<Step>| {
+        steps.iter().map(step).collect::<Vec<_>>().join(" ")
+    }),
+    documentation, doubts,
+}, POSITION => [step_spans, origin]);
 
 /// Formats a step for reports. The text distinguishes an argument from a constant value.
 fn step(step: &Step) -> String {

@@ -2,7 +2,7 @@
 
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, each, each_positioned, fact, fact_as, list, Comparison, Elements, KEY, POSITION,
+    compare_fields, each, each_positioned, fact, fact_as, list, rules, Comparison, Elements, KEY, POSITION,
 };
 use super::conditions::{conditions, restricted};
 use super::item;
@@ -20,24 +20,22 @@ pub(super) fn compare(old: &[Message], new: &[Message], comparison: &mut Compari
     super::comparison::slices(old, new, &elements, message, comparison);
 }
 
-fn message(old: &Message, new: &Message, comparison: &mut Comparison<'_>) {
-    compare_fields!(Message, old, new, comparison, {
-        name,
-        request: frame("request"),
-        reply: frame("reply"),
-        completion: fact_as("completion", Judgment::BEHAVIOR, completion),
-        reply_time: fact("time of the reply in ms", Judgment::BEHAVIOR),
-        after: fact("after the message", Judgment::API),
-        by_default: fact("default after power-on", Judgment::BEHAVIOR),
-        error: fact("error reply", Judgment::API_AND_WIRE),
-        side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
-        accepted_when: conditions("accepted while"),
-        names, availability,
-        accepted_in: restricted("accepted in"),
-        examples: each_positioned("examples", example),
-        documentation, doubts,
-    }, "follows from the framing" => [address, check_from], POSITION => [origin]);
-}
+rules!(fn message(Message) {
+    name,
+    request: frame("request"),
+    reply: frame("reply"),
+    completion: fact_as("completion", Judgment::BEHAVIOR, completion),
+    reply_time: fact("time of the reply in ms", Judgment::BEHAVIOR),
+    after: fact("after the message", Judgment::API),
+    by_default: fact("default after power-on", Judgment::BEHAVIOR),
+    error: fact("error reply", Judgment::API_AND_WIRE),
+    side_effects: each("side effects", Judgment::BEHAVIOR, CompactString::to_string),
+    accepted_when: conditions("accepted while"),
+    names, availability,
+    accepted_in: restricted("accepted in"),
+    examples: each_positioned("examples", example),
+    documentation, doubts,
+}, "follows from the framing" => [address, check_from], POSITION => [origin]);
 
 /// Formats the example frames of a message without their source positions.
 pub(super) fn example(example: &MessageExample) -> String {
@@ -85,13 +83,11 @@ fn values(fields: &[MessageField]) -> Vec<&MessageValue> {
     all
 }
 
-fn value(old: &MessageValue, new: &MessageValue, comparison: &mut Comparison<'_>) {
-    compare_fields!(MessageValue, old, new, comparison, {
-        item: item::compare,
-        byte_order: fact("order of the bytes", Judgment::WIRE),
-        counts: fact("byte count starts at", Judgment::WIRE),
-    }, "follows from the completion of messages" => [completes]);
-}
+rules!(fn value(MessageValue) {
+    item: item::compare,
+    byte_order: fact("order of the bytes", Judgment::WIRE),
+    counts: fact("byte count starts at", Judgment::WIRE),
+}, "follows from the completion of messages" => [completes]);
 
 /// Returns the effects of a changed layout. The fields become fields of a Rust struct with the same names. The types of the
 /// values are compared separately, together with the values.
@@ -134,16 +130,14 @@ fn field(field: &MessageField, with_names: bool) -> String {
     }
 }
 
-/// Compares parameter spaces: the ranges of numbers with which the protocol addresses items.
-pub(super) fn space(old: &ParameterSpace, new: &ParameterSpace, comparison: &mut Comparison<'_>) {
-    compare_fields!(ParameterSpace, old, new, comparison, {
-        read: fact("read by", Judgment::WIRE),
-        write: fact("written by", Judgment::WIRE),
-        store: fact("stored by", Judgment::WIRE),
-        byte_order: fact("order of the bytes", Judgment::WIRE),
-        documentation,
-    }, KEY => [name], POSITION => [origin]);
-}
+// Compares parameter spaces: the ranges of numbers with which the protocol addresses items.
+rules!(pub(super) fn space(ParameterSpace) {
+    read: fact("read by", Judgment::WIRE),
+    write: fact("written by", Judgment::WIRE),
+    store: fact("stored by", Judgment::WIRE),
+    byte_order: fact("order of the bytes", Judgment::WIRE),
+    documentation,
+}, KEY => [name], POSITION => [origin]);
 
 /// Compares parameter spaces, which are paired by name.
 pub(super) fn spaces() -> impl Fn(&Vec<ParameterSpace>, &Vec<ParameterSpace>, &mut Comparison<'_>) {

@@ -16,8 +16,8 @@
 //! assert_eq!(changes[0].to_string(), "breaks api: 0x2000:00 Gain: access rw, now ro");
 //! ```
 //!
-//! The comparison covers all fields of the intermediate representation. Each call of the macro `compare_fields` gives
-//! the reasons for its ignored fields.
+//! The comparison covers all fields of the intermediate representation. Each call of the macro `compare_fields` or
+//! `rules` gives the reasons for its ignored fields.
 
 mod bindings;
 mod catalog;

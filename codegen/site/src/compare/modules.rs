@@ -2,8 +2,8 @@
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, each, fact, fact_as, judged, list, optional, or_default, part, slice, text, Comparison, Elements,
-    COMPARED, KEY, POSITION,
+    compare_fields, each, fact, fact_as, judged, list, optional, or_default, part, rules, slice, text, Comparison,
+    Elements, COMPARED, KEY, POSITION,
 };
 use super::conditions::restricted;
 use super::ethercat::mailbox;
@@ -19,20 +19,18 @@ pub(super) fn slots() -> Elements<Slot> {
     Elements::titled(|slot: &Slot| format!("slot {}", slot.number))
 }
 
-pub(super) fn slot(old: &Slot, new: &Slot, comparison: &mut Comparison<'_>) {
-    compare_fields!(Slot, old, new, comparison, {
-        name: text("name"),
-        instances: fact("minimum and maximum number of modules", Judgment::BEHAVIOR),
-        names,
-        fits: restricted("fitting modules"),
-        default: fact("default module", Judgment::BEHAVIOR),
-        group: fact("slot group", Judgment::WIRE),
-        index_increment: fact_as("index increment", Judgment::WIRE, index),
-        pdo_increment: fact("PDO increment", Judgment::WIRE),
-        group_index_increment: fact_as("index increment of the group", Judgment::WIRE, index),
-        group_pdo_increment: fact("PDO increment of the group", Judgment::WIRE),
-    }, KEY => [number]);
-}
+rules!(pub(super) fn slot(Slot) {
+    name: text("name"),
+    instances: fact("minimum and maximum number of modules", Judgment::BEHAVIOR),
+    names,
+    fits: restricted("fitting modules"),
+    default: fact("default module", Judgment::BEHAVIOR),
+    group: fact("slot group", Judgment::WIRE),
+    index_increment: fact_as("index increment", Judgment::WIRE, index),
+    pdo_increment: fact("PDO increment", Judgment::WIRE),
+    group_index_increment: fact_as("index increment of the group", Judgment::WIRE, index),
+    group_pdo_increment: fact("PDO increment of the group", Judgment::WIRE),
+}, KEY => [number]);
 
 /// Returns the key that pairs modules: their number or ident number, and their identifier.
 pub(super) fn key(module: &Module) -> String {
@@ -85,11 +83,9 @@ pub(super) fn compare(old: &Module, new: &Module, comparison: &mut Comparison<'_
     types::compare_unused(comparison);
 }
 
-fn sub_extension(old: &SubExtension, new: &SubExtension, comparison: &mut Comparison<'_>) {
-    compare_fields!(SubExtension, old, new, comparison, {
-        count: fact("number of entries", Judgment::WIRE),
-        per: fact("modules of one entry", Judgment::WIRE),
-        extends_object: fact("continues at the next index", Judgment::WIRE),
-        template: item::compare,
-    }, KEY => [index]);
-}
+rules!(fn sub_extension(SubExtension) {
+    count: fact("number of entries", Judgment::WIRE),
+    per: fact("modules of one entry", Judgment::WIRE),
+    extends_object: fact("continues at the next index", Judgment::WIRE),
+    template: item::compare,
+}, KEY => [index]);

@@ -2,7 +2,7 @@
 
 use super::change::{Effect, Judgment};
 use super::comparison::{
-    compare_fields, fact, fact_as, list, or_default, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
+    compare_fields, fact, fact_as, list, or_default, rules, slice, text, Comparison, Elements, COMPARED, KEY, POSITION,
 };
 use super::names::identifier;
 use super::pairing::{Key, Matching};
@@ -252,19 +252,17 @@ fn shorten(old: &mut Vec<String>, new: &mut Vec<String>) {
     }
 }
 
-fn sync_manager(old: &SyncManager, new: &SyncManager, comparison: &mut Comparison<'_>) {
-    compare_fields!(SyncManager, old, new, comparison, {
-        purpose: fact_as("purpose", Judgment::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
-        label: text("name of the purpose"),
-        start_address: fact_as("start address", Judgment::WIRE, index),
-        default_size: fact("length in bytes", Judgment::WIRE),
-        size_range: fact("minimum and maximum length", Judgment::BEHAVIOR),
-        control: fact_as("control register", Judgment::WIRE, |control| hex8(*control)),
-        enable: fact("enabled", Judgment::WIRE),
-        op_only: fact("in Op only", Judgment::BEHAVIOR),
-        is_virtual: fact("exists in the description only", Judgment::WIRE),
-    }, KEY => [number], POSITION => [origin]);
-}
+rules!(fn sync_manager(SyncManager) {
+    purpose: fact_as("purpose", Judgment::WIRE, |purpose: &SyncManagerPurpose| purpose.label().to_owned()),
+    label: text("name of the purpose"),
+    start_address: fact_as("start address", Judgment::WIRE, index),
+    default_size: fact("length in bytes", Judgment::WIRE),
+    size_range: fact("minimum and maximum length", Judgment::BEHAVIOR),
+    control: fact_as("control register", Judgment::WIRE, |control| hex8(*control)),
+    enable: fact("enabled", Judgment::WIRE),
+    op_only: fact("in Op only", Judgment::BEHAVIOR),
+    is_virtual: fact("exists in the description only", Judgment::WIRE),
+}, KEY => [number], POSITION => [origin]);
 
 /// Compares process images, which are paired by direction and name.
 fn images() -> Elements<ProcessImage> {
@@ -280,15 +278,13 @@ fn image_title(image: &ProcessImage) -> String {
     format!("image {name}")
 }
 
-pub(super) fn image(old: &ProcessImage, new: &ProcessImage, comparison: &mut Comparison<'_>) {
-    compare_fields!(ProcessImage, old, new, comparison, {
-        name,
-        direction: fact("direction", Judgment::API_AND_WIRE),
-        length: fact("length", Judgment::API_AND_WIRE),
-        overhead: fact("further bytes", Judgment::WIRE),
-        big_endian: fact_as("byte order", Judgment::WIRE, |big_endian| {
-            if *big_endian { "big-endian" } else { "little-endian" }.to_owned()
-        }),
-        fields: slice(entries), doubts,
-    });
-}
+rules!(pub(super) fn image(ProcessImage) {
+    name,
+    direction: fact("direction", Judgment::API_AND_WIRE),
+    length: fact("length", Judgment::API_AND_WIRE),
+    overhead: fact("further bytes", Judgment::WIRE),
+    big_endian: fact_as("byte order", Judgment::WIRE, |big_endian| {
+        if *big_endian { "big-endian" } else { "little-endian" }.to_owned()
+    }),
+    fields: slice(entries), doubts,
+});

@@ -4,8 +4,8 @@ use std::slice::from_ref;
 
 use super::change::Judgment;
 use super::comparison::{
-    compare_fields, each, fact, fact_as, judged, list, optional, or_default, part, slice, text, Comparison, Elements,
-    KEY, POSITION,
+    each, fact, fact_as, judged, list, optional, or_default, part, rules, slice, text, Comparison, Elements, KEY,
+    POSITION,
 };
 use super::identity::identity;
 use super::show::{index, Show};
@@ -19,30 +19,28 @@ use lexibus_codegen::ir::{
 };
 use lexibus_codegen::number::{hex16, hex32};
 
-pub(super) fn settings(old: &ProfinetSettings, new: &ProfinetSettings, comparison: &mut Comparison<'_>) {
-    compare_fields!(ProfinetSettings, old, new, comparison, {
-        ident: fact_as("ident number", Judgment::WIRE, |ident| hex32(*ident)),
-        device_id: fact_as("device ID", Judgment::WIRE, index),
-        family: text("family"),
-        pnio_version: text("version of PROFINET"),
-        slots: fact("slots", Judgment::BEHAVIOR),
-        dns_name: fact("name of a new device", Judgment::BEHAVIOR),
-        min_device_interval: fact("minimum interval in 31.25 µs", Judgment::BEHAVIOR),
-        max_record_size: fact("maximum length of a record", Judgment::BEHAVIOR),
-        relations: fact("maximum number of application relations", Judgment::BEHAVIOR),
-        startup_modes: fact("start-up modes", Judgment::BEHAVIOR),
-        max_lengths: fact_as("maximum lengths", Judgment::BEHAVIOR, lengths),
-        send_clocks: fact("send clock factors", Judgment::BEHAVIOR),
-        reduction_ratios: fact("reduction ratios", Judgment::BEHAVIOR),
-        places: fact("slots of the device access point", Judgment::BEHAVIOR),
-        subslot_names: each("names of subslots", Judgment::NONE, subslot_name),
-        vendor_blocks: list(
-            Elements::titled(|block: &VendorBlock| format!("vendor block {}/{}", hex16(block.api), hex16(block.identifier))),
-            vendor_block,
-        ),
-        attributes: fact("attributes", Judgment::BEHAVIOR),
-    });
-}
+rules!(pub(super) fn settings(ProfinetSettings) {
+    ident: fact_as("ident number", Judgment::WIRE, |ident| hex32(*ident)),
+    device_id: fact_as("device ID", Judgment::WIRE, index),
+    family: text("family"),
+    pnio_version: text("version of PROFINET"),
+    slots: fact("slots", Judgment::BEHAVIOR),
+    dns_name: fact("name of a new device", Judgment::BEHAVIOR),
+    min_device_interval: fact("minimum interval in 31.25 µs", Judgment::BEHAVIOR),
+    max_record_size: fact("maximum length of a record", Judgment::BEHAVIOR),
+    relations: fact("maximum number of application relations", Judgment::BEHAVIOR),
+    startup_modes: fact("start-up modes", Judgment::BEHAVIOR),
+    max_lengths: fact_as("maximum lengths", Judgment::BEHAVIOR, lengths),
+    send_clocks: fact("send clock factors", Judgment::BEHAVIOR),
+    reduction_ratios: fact("reduction ratios", Judgment::BEHAVIOR),
+    places: fact("slots of the device access point", Judgment::BEHAVIOR),
+    subslot_names: each("names of subslots", Judgment::NONE, subslot_name),
+    vendor_blocks: list(
+        Elements::titled(|block: &VendorBlock| format!("vendor block {}/{}", hex16(block.api), hex16(block.identifier))),
+        vendor_block,
+    ),
+    attributes: fact("attributes", Judgment::BEHAVIOR),
+});
 
 fn lengths(lengths: &IoLengths) -> String {
     let IoLengths { input, output, data } = lengths;
@@ -55,14 +53,12 @@ pub(super) fn subslot_name(subslot: &SubslotName) -> String {
     format!("{number} {name} {}", names.show()).trim_end().to_owned()
 }
 
-fn vendor_block(old: &VendorBlock, new: &VendorBlock, comparison: &mut Comparison<'_>) {
-    compare_fields!(VendorBlock, old, new, comparison, {
-        record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
-            comparison.in_types_of_catalog(|comparison| groups::compare(from_ref(old), from_ref(new), comparison));
-        },
-        menus: each("menus", Judgment::NONE, menu),
-    }, KEY => [api, identifier]);
-}
+rules!(fn vendor_block(VendorBlock) {
+    record: |old: &Group, new: &Group, comparison: &mut Comparison<'_>| {
+        comparison.in_types_of_catalog(|comparison| groups::compare(from_ref(old), from_ref(new), comparison));
+    },
+    menus: each("menus", Judgment::NONE, menu),
+}, KEY => [api, identifier]);
 
 fn menu(menu: &Menu) -> String {
     let Menu { id, name, names, targets } = menu;
@@ -74,25 +70,23 @@ pub(super) fn submodule_key(submodule: &Submodule) -> String {
     format!("{:08X} {}", submodule.ident, submodule.id)
 }
 
-pub(super) fn submodule(old: &Submodule, new: &Submodule, comparison: &mut Comparison<'_>) {
-    compare_fields!(Submodule, old, new, comparison, {
-        kind: part("submodule", fact_as("kind", Judgment::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
-        api: part("submodule", fact_as("API", Judgment::WIRE, |api| hex16(*api))),
-        name: part("submodule", judged("name", renamed)),
-        names: part("submodule", text("name in other languages")),
-        documentation: part("submodule", or_default(documentation)),
-        identity: part("submodule", identity),
-        input: optional("input", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
-        output: optional("output", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
-        status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgment::WIRE)),
-        records: slice(groups::compare),
-        f_parameters: optional("F-parameters", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, f_parameters),
-        menus: part("submodule", each("menus", Judgment::NONE, menu)),
-        graphics: part("submodule", fact("pictures", Judgment::NONE)),
-        attributes: part("submodule", fact("attributes", Judgment::BEHAVIOR)),
-        extensions: part("submodule", extensions),
-    }, KEY => [id, ident], POSITION => [origin]);
-}
+rules!(pub(super) fn submodule(Submodule) {
+    kind: part("submodule", fact_as("kind", Judgment::WIRE, |kind: &SubmoduleKind| kind_name(*kind).to_owned())),
+    api: part("submodule", fact_as("API", Judgment::WIRE, |api| hex16(*api))),
+    name: part("submodule", judged("name", renamed)),
+    names: part("submodule", text("name in other languages")),
+    documentation: part("submodule", or_default(documentation)),
+    identity: part("submodule", identity),
+    input: optional("input", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
+    output: optional("output", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, io_data),
+    status_lengths: part("submodule", fact("lengths of provider and consumer status", Judgment::WIRE)),
+    records: slice(groups::compare),
+    f_parameters: optional("F-parameters", Judgment::API_AND_WIRE, Judgment::API_AND_WIRE, f_parameters),
+    menus: part("submodule", each("menus", Judgment::NONE, menu)),
+    graphics: part("submodule", fact("pictures", Judgment::NONE)),
+    attributes: part("submodule", fact("attributes", Judgment::BEHAVIOR)),
+    extensions: part("submodule", extensions),
+}, KEY => [id, ident], POSITION => [origin]);
 
 fn kind_name(kind: SubmoduleKind) -> &'static str {
     match kind {
@@ -103,14 +97,12 @@ fn kind_name(kind: SubmoduleKind) -> &'static str {
     }
 }
 
-fn io_data(old: &IoData, new: &IoData, comparison: &mut Comparison<'_>) {
-    compare_fields!(IoData, old, new, comparison, {
-        image: pdos::image,
-        consistent: fact("consistent as a whole", Judgment::BEHAVIOR),
-        items: each("data items", Judgment::NONE, io_item),
-        channels: each("channels", Judgment::BEHAVIOR, channel),
-    });
-}
+rules!(fn io_data(IoData) {
+    image: pdos::image,
+    consistent: fact("consistent as a whole", Judgment::BEHAVIOR),
+    items: each("data items", Judgment::NONE, io_item),
+    channels: each("channels", Judgment::BEHAVIOR, channel),
+});
 
 fn io_item(item: &IoItem) -> String {
     let IoItem { name, names, data_type, bit_offset, bits, first_field, fields, subordinate } = item;
@@ -128,30 +120,26 @@ fn channel(channel: &IoChannel) -> String {
         .to_owned()
 }
 
-fn f_parameters(old: &FParameters, new: &FParameters, comparison: &mut Comparison<'_>) {
-    compare_fields!(FParameters, old, new, comparison, {
-        index: fact_as("index", Judgment::WIRE, index),
-        transfer_sequence: fact("order of transfer", Judgment::WIRE),
-        description_crc: fact_as("checksum of the description", Judgment::WIRE, |crc: &Option<u16>| {
-            crc.as_ref().map(index).unwrap_or_default()
-        }),
-        parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
-            .judged(Judgment::API_AND_WIRE, Judgment::API_AND_WIRE), f_parameter),
-    }, POSITION => [origin]);
-}
+rules!(fn f_parameters(FParameters) {
+    index: fact_as("index", Judgment::WIRE, index),
+    transfer_sequence: fact("order of transfer", Judgment::WIRE),
+    description_crc: fact_as("checksum of the description", Judgment::WIRE, |crc: &Option<u16>| {
+        crc.as_ref().map(index).unwrap_or_default()
+    }),
+    parameters: list(Elements::titled(|parameter: &FParameter| parameter.name.to_string())
+        .judged(Judgment::API_AND_WIRE, Judgment::API_AND_WIRE), f_parameter),
+}, POSITION => [origin]);
 
-fn f_parameter(old: &FParameter, new: &FParameter, comparison: &mut Comparison<'_>) {
-    compare_fields!(FParameter, old, new, comparison, {
-        default: fact("default", Judgment::BEHAVIOR),
-        label: text("name of the default"),
-        allowed: each("range", Judgment::BEHAVIOR, |(first, last): &(i128, i128)| {
-            facts::types::numbers(*first, Some(*last))
-        }),
-        allowed_labels: fact("names of the range", Judgment::NONE),
-        changeable: fact("changeable", Judgment::BEHAVIOR),
-        visible: fact("shown by tools", Judgment::NONE),
-    }, KEY => [name]);
-}
+rules!(fn f_parameter(FParameter) {
+    default: fact("default", Judgment::BEHAVIOR),
+    label: text("name of the default"),
+    allowed: each("range", Judgment::BEHAVIOR, |(first, last): &(i128, i128)| {
+        facts::types::numbers(*first, Some(*last))
+    }),
+    allowed_labels: fact("names of the range", Judgment::NONE),
+    changeable: fact("changeable", Judgment::BEHAVIOR),
+    visible: fact("shown by tools", Judgment::NONE),
+}, KEY => [name]);
 
 /// Compares which submodules fit a device or module, and into which subslots each submodule fits.
 pub(super) fn compare_uses(old: &[SubmoduleUse], new: &[SubmoduleUse], comparison: &mut Comparison<'_>) {
@@ -173,29 +161,25 @@ pub(super) fn unit_diagnoses() -> impl Fn(&Vec<UnitDiagnosis>, &Vec<UnitDiagnosi
     )
 }
 
-fn diagnosis(old: &UnitDiagnosis, new: &UnitDiagnosis, comparison: &mut Comparison<'_>) {
-    compare_fields!(UnitDiagnosis, old, new, comparison, {
-        name, names, documentation,
-        fields: list(Elements {
-            name: |field: &UnitDiagnosisField| field.name.to_string(),
-            position: |field| field.bit_offset.to_string(),
-            added: Judgment::API_AND_WIRE,
-            ..Elements::titled(|field| format!("field {}", field.name))
-        }, diagnosis_field),
-        extensions,
-    }, KEY => [api, identifier], POSITION => [origin]);
-}
+rules!(fn diagnosis(UnitDiagnosis) {
+    name, names, documentation,
+    fields: list(Elements {
+        name: |field: &UnitDiagnosisField| field.name.to_string(),
+        position: |field| field.bit_offset.to_string(),
+        added: Judgment::API_AND_WIRE,
+        ..Elements::titled(|field| format!("field {}", field.name))
+    }, diagnosis_field),
+    extensions,
+}, KEY => [api, identifier], POSITION => [origin]);
 
-fn diagnosis_field(old: &UnitDiagnosisField, new: &UnitDiagnosisField, comparison: &mut Comparison<'_>) {
-    compare_fields!(UnitDiagnosisField, old, new, comparison, {
-        name, names,
-        bit_offset: fact("first bit", Judgment::WIRE),
-        bits: fact("length in bits", Judgment::WIRE),
-        ty: types::compare,
-        values: |old: &Option<TypeId>, new: &Option<TypeId>, comparison: &mut Comparison<'_>| {
-            let named = |value: &Option<TypeId>| value.map(Type::Named);
-            types::compare_optional("values", Judgment::API)(&named(old), &named(new), comparison);
-        },
-        default: fact("default", Judgment::BEHAVIOR),
-    });
-}
+rules!(fn diagnosis_field(UnitDiagnosisField) {
+    name, names,
+    bit_offset: fact("first bit", Judgment::WIRE),
+    bits: fact("length in bits", Judgment::WIRE),
+    ty: types::compare,
+    values: |old: &Option<TypeId>, new: &Option<TypeId>, comparison: &mut Comparison<'_>| {
+        let named = |value: &Option<TypeId>| value.map(Type::Named);
+        types::compare_optional("values", Judgment::API)(&named(old), &named(new), comparison);
+    },
+    default: fact("default", Judgment::BEHAVIOR),
+});

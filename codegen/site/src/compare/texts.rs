@@ -1,7 +1,7 @@
 //! Compares texts about an element. Except for names, changes to texts have no effect.
 
 use super::change::Judgment;
-use super::comparison::{compare_fields, each_positioned, joined, positioned, text, Comparison, CITATION};
+use super::comparison::{each_positioned, joined, positioned, rules, text, Comparison, CITATION};
 use super::names::identifier;
 use super::show::Show;
 use lexibus_codegen::facts::words::{fact_name, origin_name, PLAIN};
@@ -9,14 +9,11 @@ use lexibus_codegen::ir::{
     Documentation, Doubt, Doubts, Extension, Extensions, FactOrigin, FactOrigins, Manual, ManualSection, OverlayOrigin,
 };
 
-/// Compares two descriptions of an element.
-pub(super) fn documentation(old: &Documentation, new: &Documentation, comparison: &mut Comparison<'_>) {
-    compare_fields!(Documentation, old, new, comparison, {
-        text: text("description"),
-        translations: text("description in other languages"),
-        text_from: positioned("origin of the description", text_from),
-    }, CITATION => [cite]);
-}
+rules!(pub(super) fn documentation(Documentation) {
+    text: text("description"),
+    translations: text("description in other languages"),
+    text_from: positioned("origin of the description", text_from),
+}, CITATION => [cite]);
 
 /// Formats the origin of a fact without its position in the file.
 pub(super) fn origin(origin: &FactOrigin) -> String {
@@ -71,16 +68,13 @@ pub(super) fn extensions(old: &Extensions, new: &Extensions, comparison: &mut Co
     each_positioned("further keys", text)(old, new, comparison);
 }
 
-/// Compares the manuals on which the descriptions are based.
-pub(super) fn manual(old: &Manual, new: &Manual, comparison: &mut Comparison<'_>) {
-    compare_fields!(Manual, old, new, comparison, {
-        title: text("title"),
-        edition: text("edition"),
-        language: text("language"),
-        documentation: text("description"),
-        sections: each_positioned("sections", |section: &ManualSection| section.title.to_string()),
-    }, CITATION => [counts]);
-}
+rules!(pub(super) fn manual(Manual) {
+    title: text("title"),
+    edition: text("edition"),
+    language: text("language"),
+    documentation: text("description"),
+    sections: each_positioned("sections", |section: &ManualSection| section.title.to_string()),
+}, CITATION => [counts]);
 
 /// Returns the effects of renaming an element. The Rust method, field or constant of the element has this name in
 /// `snake_case`.
