@@ -131,7 +131,7 @@ impl<'a> Folder<'a> {
         let frame = self.frame(title, device_pages, &common, languages(&catalog.devices, &languages_of_modules));
         self.module_pages(&modules, &frame);
         for ((file, _), groups) in diagnostics.iter().zip(&groups) {
-            self.page(&frame, file, Content::Diagnostics(groups));
+            self.page(&frame, file, Content::Diagnostics { groups });
         }
         if !is_single {
             let devices = std::mem::take(&mut self.listed.devices);
@@ -208,7 +208,7 @@ impl<'a> Folder<'a> {
         let languages = languages(std::slice::from_ref(device), languages_of_modules);
         let frame = Rc::new(self.frame(title.clone(), self.last.clone(), common, languages));
         for ((file, _), ranked) in assumptions.iter().zip(&ranked) {
-            self.page(&frame, file, Content::Assumptions(ranked));
+            self.page(&frame, file, Content::Assumptions { ranked });
         }
         if let (Some((file, _)), Some(previous)) = (&changes, previous) {
             let key = (self.name.clone(), at);
@@ -217,7 +217,7 @@ impl<'a> Folder<'a> {
         }
         let links = ModuleLinks { modules: common.modules, path: &common.path };
         let contents = parts.contents(slots::slots(catalog, device, links));
-        self.page(&frame, &first, Content::Overview(&parts.overview, &contents));
+        self.page(&frame, &first, Content::Overview { overview: &parts.overview, contents: &contents });
         let path = |file: &str| format!("{}/{file}", self.open);
         let pages = pages.into_iter().map(|(file, title)| (path(&file), title)).collect();
         let mut listed = Listed::new(catalog, device, &self.name, title, path(&first), pages);
@@ -225,7 +225,7 @@ impl<'a> Folder<'a> {
         self.index.device(&listed.title, &listed.words(), &listed.distinction(), &self.open);
         self.index_page(&first, search::DEVICE, &listed.title, &listed.words());
         for area in &parts.areas {
-            self.page(&frame, &area.file, Content::Area(area));
+            self.page(&frame, &area.file, Content::Area { area });
             self.index_page(&area.file, "", &area.title, "");
             indexing::area(&mut self.index, area);
         }
@@ -280,22 +280,22 @@ impl<'a> Folder<'a> {
     fn further(&mut self, device: &Device, parts: &Parts, frame: &Frameset) {
         if let Some(file) = &parts.process {
             let sync_managers = process::sync_managers(&device.process_data);
-            self.page(frame, file, Content::Process(&parts.data, &sync_managers));
+            self.page(frame, file, Content::Process { part: &parts.data, sync_managers: &sync_managers });
             self.index_page(file, "PDO", PROCESS_DATA, "");
             indexing::frames(&mut self.index, &parts.data.frames);
         }
         if let Some((file, protocol)) = &parts.protocol {
-            self.page(frame, file, Content::Protocol(protocol));
+            self.page(frame, file, Content::Protocol { protocol });
             self.index_page(file, "", "Messages", "");
             indexing::messages(&mut self.index, protocol);
         }
         if let Some((file, behavior)) = &parts.behavior {
-            self.page(frame, file, Content::Machines(behavior));
+            self.page(frame, file, Content::Machines { behavior });
             self.index_page(file, "", "States and procedures", "");
             indexing::behavior(&mut self.index, behavior);
         }
         for (file, title, tables) in &parts.codes {
-            self.page(frame, file, Content::Codes(tables));
+            self.page(frame, file, Content::Codes { tables });
             self.index_page(file, "code", title, "");
             indexing::codes(&mut self.index, tables);
         }
@@ -311,7 +311,7 @@ impl<'a> Folder<'a> {
             self.index.device(&frame.title, "", "", &self.home);
         }
         for ((file, title), modules) in modules.pages() {
-            self.page(frame, file, Content::Modules(modules));
+            self.page(frame, file, Content::Modules { modules });
             self.index_page(file, "module", title, "");
             modules.iter().for_each(|module| indexing::module(&mut self.index, module));
         }

@@ -38,7 +38,7 @@ impl Site {
         let parts = shown.nodes.iter().map(|node| [node.anchor.as_str(), &node.id, &node.name]).collect();
         let title = &shown.title;
         let page = Further { folder: "_networks", kind: "network", name: &network.name, title, parts };
-        self.further(&page, Content::Network(&shown))
+        self.further(&page, Content::Network { network: &shown })
     }
 
     /// Returns the page of a segment, with links to the pages of its devices. Before calling this function, add the catalogs of the
@@ -50,7 +50,7 @@ impl Site {
         let parts = shown.subdevices.iter().map(|one| [one.anchor.as_str(), &one.position, &one.name]).collect();
         let title = &shown.title;
         let page = Further { folder: "_segments", kind: "segment", name: &segment.name, title, parts };
-        self.further(&page, Content::Segment(&shown))
+        self.further(&page, Content::Segment { segment: &shown })
     }
 
     /// Returns the page of a network or segment. Adds it to the search, and to the pages to which the list of devices links.
@@ -67,8 +67,8 @@ impl Site {
         }
         let path = format!("{folder}/{file}");
         self.further.push((path.clone(), (*title).to_owned()));
-        let frame = Frameset { title: (*title).to_owned(), root: "..", ..Frameset::default() };
-        Page { text: format.page(&frame, &path, content), path }
+        let frame = Frameset::alone(title, &file, title);
+        Page { text: format.page(&frame, &file, content), path }
     }
 
     /// Returns the first device of a catalog.

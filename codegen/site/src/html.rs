@@ -5,22 +5,13 @@ use std::fmt;
 use askama::Template;
 
 use super::area::{Area, Section};
-use super::assumptions::Ranked;
 use super::bits::{self, Grids};
-use super::codes::Codes;
-use super::diagnostics::DiagnosticGroup;
-use super::list::{self, Column};
+use super::list::Column;
 use super::listed::{Listed, ListedCatalog};
-use super::machines::Behavior;
 use super::modules::ModuleModel;
-use super::network::Shown;
-use super::overview::{Contents, Overview};
 use super::pages::{Content, Frameset, Pages};
-use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
-use super::revisions::Comparison;
 use super::search::Index;
-use super::segment;
 use super::Page;
 
 /// The style sheet of the pages.
@@ -40,45 +31,6 @@ const SCRIPT: &str = concat!(
     include_str!("../templates/script/search.js"),
     include_str!("../templates/script/start.js"),
 );
-
-/// Declares one template for each kind of page.
-macro_rules! templates {
-    ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
-        #[derive(Template)]
-        #[template(path = $path)]
-        struct $page<'p> {
-            frame: &'p Frameset,
-            file: &'p str,
-            $($field: $ty,)+
-        }
-    )+ };
-}
-
-templates! {
-    OverviewPage = "overview.html" { overview: &'p Overview, contents: &'p Contents }
-    AreaPage = "area.html" { area: &'p Area, grids: &'p Grids }
-    ProcessPage = "process.html" { part: &'p ProcessPart, sync_managers: &'p [SyncManager] }
-    ProtocolPage = "protocol.html" { protocol: &'p Protocol, grids: &'p Grids }
-    CodesPage = "codes.html" { tables: &'p [Codes] }
-    MachinesPage = "machines.html" { behavior: &'p Behavior }
-    ModulesPage = "modules.html" { modules: &'p [ModuleModel], grids: &'p Grids }
-    AssumptionsPage = "assumptions.html" { ranked: &'p [Ranked<'p>] }
-    DiagnosticsPage = "diagnostics.html" { groups: &'p [DiagnosticGroup<'p>] }
-    ChangesPage = "changes.html" { comparison: &'p Comparison }
-    NetworkPage = "network.html" { network: &'p Shown }
-    SegmentPage = "segment.html" { segment: &'p segment::Shown }
-    ListPage = "list.html" { devices: &'p [Listed], is_part: bool }
-}
-
-impl ListPage<'_> {
-    fn columns(&self) -> Vec<Column> {
-        list::columns(self.devices)
-    }
-
-    fn begins_group(&self, at: &usize) -> bool {
-        list::begins_group(self.devices, *at)
-    }
-}
 
 /// A section of a page, rendered only to measure its size.
 #[derive(Template)]
@@ -153,7 +105,7 @@ struct LatestPage<'p> {
 const LATEST: &str = include_str!("../templates/script/latest.js");
 
 /// Renders a template. Rendering cannot fail because the templates contain no fallible expressions.
-fn written(template: &impl Template) -> String {
+pub(super) fn written(template: &impl Template) -> String {
     template.render().unwrap_or_default()
 }
 
@@ -166,41 +118,7 @@ impl Pages for Html {
     }
 
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
-        let title = match content {
-            Content::Changes(comparison) => Some(&comparison.title),
-            Content::Network(network) => Some(&network.title),
-            Content::Segment(segment) => Some(&segment.title),
-            _ => None,
-        };
-        let alone = title.and_then(|title| frame.alone(file, title));
-        let (frame, file) = alone.as_ref().map_or((frame, file), |(frame, file)| (frame, file.as_str()));
-        match content {
-            Content::Overview(overview, contents) => written(&OverviewPage { frame, file, overview, contents }),
-            Content::Area(area) => {
-                let grids = &grids_of_rows(&area.sections);
-                written(&AreaPage { frame, file, area, grids })
-            }
-            Content::Process(part, sync_managers) => written(&ProcessPage { frame, file, part, sync_managers }),
-            Content::Protocol(protocol) => {
-                let messages = protocol.messages.iter();
-                let parts = messages.flat_map(|message| message.request.iter().chain(&message.reply));
-                let grids = &bits::grids(parts.filter_map(|part| part.bits.as_ref()));
-                written(&ProtocolPage { frame, file, protocol, grids })
-            }
-            Content::Codes(tables) => written(&CodesPage { frame, file, tables }),
-            Content::Machines(behavior) => written(&MachinesPage { frame, file, behavior }),
-            Content::Modules(modules) => {
-                let sections = modules.iter().flat_map(|module| &module.sections);
-                let grids = &grids_of_rows(sections.map(|(_, section)| section));
-                written(&ModulesPage { frame, file, modules, grids })
-            }
-            Content::Assumptions(ranked) => written(&AssumptionsPage { frame, file, ranked }),
-            Content::Diagnostics(groups) => written(&DiagnosticsPage { frame, file, groups }),
-            Content::Changes(comparison) => written(&ChangesPage { frame, file, comparison }),
-            Content::Network(network) => written(&NetworkPage { frame, file, network }),
-            Content::Segment(segment) => written(&SegmentPage { frame, file, segment }),
-            Content::List { devices, is_part } => written(&ListPage { frame, file, devices, is_part }),
-        }
+        content.html(frame, file)
     }
 
     fn redirection(&self, title: &str, target: &str) -> Option<String> {
@@ -223,7 +141,26 @@ impl Pages for Html {
 }
 
 /// Returns the bit grids that the bit fields in these sections need.
-fn grids_of_rows<'p>(sections: impl IntoIterator<Item = &'p Section>) -> Grids {
+fn grids<'p>(sections: impl IntoIterator<Item = &'p Section>) -> Grids {
     let rows = sections.into_iter().flat_map(|section| &section.rows);
     bits::grids(rows.filter_map(|row| row.bits.as_ref()))
+}
+
+impl Area {
+    pub fn grids(&self) -> Grids {
+        grids(&self.sections)
+    }
+}
+
+impl Protocol {
+    pub fn grids(&self) -> Grids {
+        let messages = self.messages.iter();
+        let parts = messages.flat_map(|message| message.request.iter().chain(&message.reply));
+        bits::grids(parts.filter_map(|part| part.bits.as_ref()))
+    }
+}
+
+pub(super) fn grids_of_modules(modules: &[ModuleModel]) -> Grids {
+    let sections = modules.iter().flat_map(|module| &module.sections);
+    grids(sections.map(|(_, section)| section))
 }

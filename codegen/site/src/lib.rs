@@ -182,10 +182,11 @@ impl Site {
         let format = self.format.pages();
         let comparison = Comparison::of_catalogs(old, new);
         let name = format!("{} to {}", old.0, new.0);
-        let path = format!("_compare/{}{}", addresses::folder_name(&name), format.ending());
+        let file = format!("{}{}", addresses::folder_name(&name), format.ending());
+        let path = format!("_compare/{file}");
         self.further.push((path.clone(), comparison.title.clone()));
-        let frame = Frameset { title: "Devices".to_owned(), root: "..", ..Frameset::default() };
-        Page { text: format.page(&frame, &path, Content::Changes(&comparison)), path }
+        let frame = Frameset::alone("Devices", &file, &comparison.title);
+        Page { text: format.page(&frame, &file, Content::Changes { comparison: &comparison }), path }
     }
 
     /// Returns the pages that all catalogs share: the list of devices, the redirections to the newest revision of each product,

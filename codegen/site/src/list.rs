@@ -33,6 +33,11 @@ pub(super) fn columns(devices: &[Listed]) -> Vec<Column> {
     COLUMNS.into_iter().filter(is_used).collect()
 }
 
+/// Returns whether at least one device has a family.
+pub(super) fn has_families(devices: &[Listed]) -> bool {
+    devices.iter().any(|device| !device.family.is_empty())
+}
+
 /// Returns whether the device at a position is the first of its vendor and family.
 pub(super) fn begins_group(devices: &[Listed], at: usize) -> bool {
     let group = |at: usize| devices.get(at).map(Listed::group);

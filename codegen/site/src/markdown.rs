@@ -6,23 +6,12 @@ use std::fmt::{self, Write};
 
 use askama::Template;
 
-use super::area::Area;
-use super::assumptions::Ranked;
-use super::codes::Codes;
-use super::diagnostics::DiagnosticGroup;
 use super::diagram::ANY_STATE;
-use super::list::{self, Column};
-use super::listed::{Listed, ListedCatalog};
-use super::machines::{Behavior, Machine};
-use super::modules::ModuleModel;
-use super::network::Shown;
-use super::overview::{Contents, Overview};
+use super::listed::ListedCatalog;
+use super::machines::Machine;
+use super::overview::Contents;
 use super::pages::{Content, Frameset, Pages, FIRST};
-use super::process::{Frame, SyncManager};
-use super::protocol::Protocol;
-use super::revisions::Comparison;
 use super::search::Index;
-use super::segment;
 use super::Page;
 use lexibus_codegen::facts::markdown;
 
@@ -44,46 +33,16 @@ fn is_visible(letter: char) -> bool {
     !letter.is_control() && !is_invisible
 }
 
-/// Declares one template for each kind of page.
-macro_rules! templates {
-    ($($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => { $(
-        #[derive(Template)]
-        #[template(path = $path)]
-        struct $page<'p> {
-            $($field: $ty,)+
-        }
-    )+ };
-}
-
-/// File names and titles of the pages that a page links to.
-type PageLinks<'p> = &'p [&'p (String, String)];
-
-templates! {
-    OverviewPage = "markdown/overview.md" { title: &'p str, overview: &'p Overview, contents: &'p Contents, links: PageLinks<'p> }
-    AreaPage = "markdown/area.md" { area: &'p Area }
-    ProcessPage = "markdown/process.md" { frames: &'p [Frame], sync_managers: &'p [SyncManager] }
-    ProtocolPage = "markdown/protocol.md" { protocol: &'p Protocol }
-    CodesPage = "markdown/codes.md" { tables: &'p [Codes] }
-    MachinesPage = "markdown/machines.md" { behavior: &'p Behavior }
-    ModulesPage = "markdown/modules.md" { modules: &'p [ModuleModel] }
-    AssumptionsPage = "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
-    DiagnosticsPage = "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
-    ChangesPage = "markdown/changes.md" { comparison: &'p Comparison }
-    NetworkPage = "markdown/network.md" { network: &'p Shown }
-    SegmentPage = "markdown/segment.md" { segment: &'p segment::Shown }
-    ListPage = "markdown/list.md" { title: &'p str, root: &'p str, devices: &'p [Listed], columns: &'p [Column], links: PageLinks<'p> }
-    SummaryPage = "markdown/summary.md" { catalogs: &'p [ListedCatalog], further: &'p [(String, String)] }
-}
-
-impl ListPage<'_> {
-    fn has_families(&self) -> bool {
-        self.devices.iter().any(|device| !device.family.is_empty())
-    }
+#[derive(Template)]
+#[template(path = "markdown/summary.md")]
+struct SummaryPage<'p> {
+    catalogs: &'p [ListedCatalog],
+    further: &'p [(String, String)],
 }
 
 /// Renders a template and reduces consecutive empty lines to one. Rendering cannot fail because the templates contain
 /// no fallible expressions.
-fn written(template: &impl Template) -> String {
+pub(super) fn written(template: &impl Template) -> String {
     let rendered = template.render().unwrap_or_default();
     let mut text = String::with_capacity(rendered.len());
     let mut was_empty = true;
@@ -108,29 +67,7 @@ impl Pages for Markdown {
     }
 
     fn page(&self, frame: &Frameset, file: &str, content: Content<'_>) -> String {
-        let (title, mut links) = (frame.title.as_str(), links(frame, file));
-        match content {
-            Content::Overview(overview, contents) => {
-                // Skip the link to the overview itself and the links to the areas, which have their own list.
-                let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
-                links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
-                written(&OverviewPage { title, overview, contents, links: &links })
-            }
-            Content::Area(area) => written(&AreaPage { area }),
-            Content::Process(part, sync_managers) => written(&ProcessPage { frames: &part.frames, sync_managers }),
-            Content::Protocol(protocol) => written(&ProtocolPage { protocol }),
-            Content::Codes(tables) => written(&CodesPage { tables }),
-            Content::Machines(behavior) => written(&MachinesPage { behavior }),
-            Content::Modules(modules) => written(&ModulesPage { modules }),
-            Content::Assumptions(ranked) => written(&AssumptionsPage { ranked }),
-            Content::Diagnostics(groups) => written(&DiagnosticsPage { groups }),
-            Content::Changes(comparison) => written(&ChangesPage { comparison }),
-            Content::Network(network) => written(&NetworkPage { network }),
-            Content::Segment(segment) => written(&SegmentPage { segment }),
-            Content::List { devices, .. } => {
-                written(&ListPage { title, root: frame.root, devices, columns: &list::columns(devices), links: &links })
-            }
-        }
+        content.markdown(frame, file)
     }
 
     fn of_site(&self, catalogs: &[ListedCatalog], further: &[(String, String)], _: Option<&Index>) -> Vec<Page> {
@@ -140,7 +77,7 @@ impl Pages for Markdown {
 
 /// Returns the links of a page. The first page of a folder links to all pages. If there are very many pages, any other
 /// page links only to some of them.
-fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
+pub(super) fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
     let is_first = file.strip_suffix(".md") == Some(FIRST);
     if is_first {
         frame.all()
@@ -149,10 +86,19 @@ fn links<'s>(frame: &'s Frameset, file: &str) -> Vec<&'s (String, String)> {
     }
 }
 
+/// Returns the links of the overview of a device, without the link to the overview itself and the links to the areas, which
+/// have their own list.
+pub(super) fn links_of_overview<'s>(frame: &'s Frameset, file: &str, contents: &Contents) -> Vec<&'s (String, String)> {
+    let areas: HashSet<&str> = contents.areas.iter().map(|(area, ..)| area.as_str()).collect();
+    let mut links = links(frame, file);
+    links.retain(|(linked, _)| !areas.contains(linked.as_str()) && linked != file);
+    links
+}
+
 impl Machine {
     /// Returns the transitions as lines of a Mermaid state diagram. Spaces replace most punctuation in the labels,
     /// because Mermaid restricts their characters.
-    fn lines(&self) -> Vec<String> {
+    pub fn lines(&self) -> Vec<String> {
         let label = |text: &str| -> String {
             let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.' | '/');
             text.chars().map(|letter| if is_plain(letter) { letter } else { ' ' }).collect()

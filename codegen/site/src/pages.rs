@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use askama::Template;
+
 use super::area::Area;
 use super::assumptions::Ranked;
 use super::codes::Codes;
@@ -10,14 +12,12 @@ use super::links::Links;
 use super::listed::{Listed, ListedCatalog, PageLink};
 use super::machines::Behavior;
 use super::modules::ModuleModel;
-use super::network;
 use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
-use super::segment;
-use super::Page;
+use super::{html, markdown, network, segment, Page};
 
 /// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
@@ -50,16 +50,10 @@ impl Frameset {
         self.device_pages.all().chain(self.shared.all()).collect()
     }
 
-    /// Returns the frameset and the file name of a page that belongs to no device, such as the page of a network. The
-    /// frameset links only to this page. Returns `None` if the frameset already has pages.
-    pub fn alone(&self, path: &str, title: &str) -> Option<(Frameset, String)> {
-        if self.device_pages.count() + self.shared.count() > 0 {
-            return None;
-        }
-        let file = path.rsplit('/').next().unwrap_or(path).to_owned();
-        let shared = Rc::new(Links::new(vec![(file.clone(), title.to_owned())], 0..1));
-        let Frameset { title, root, .. } = self;
-        Some((Frameset { title: title.clone(), root, shared, ..Frameset::default() }, file))
+    /// Returns the frameset of a page that belongs to no device, such as the page of a network. It links only to this page.
+    pub fn alone(title: &str, file: &str, page: &str) -> Frameset {
+        let shared = Rc::new(Links::new(vec![(file.to_owned(), page.to_owned())], 0..1));
+        Frameset { title: title.to_owned(), root: "..", shared, ..Frameset::default() }
     }
 
     /// Returns the breadcrumb trail of `file`: the list of devices, the first page of the device or catalog, and `file` itself if
@@ -92,27 +86,53 @@ impl Frameset {
     }
 }
 
-/// The content of a page.
-#[derive(Clone, Copy)]
-pub(super) enum Content<'p> {
-    Overview(&'p Overview, &'p Contents),
-    Area(&'p Area),
-    Process(&'p ProcessPart, &'p [SyncManager]),
-    Protocol(&'p Protocol),
-    Codes(&'p [Codes]),
-    Machines(&'p Behavior),
-    Modules(&'p [ModuleModel]),
-    Assumptions(&'p [Ranked<'p>]),
-    Diagnostics(&'p [DiagnosticGroup<'p>]),
-    Changes(&'p Comparison),
-    Network(&'p network::Shown),
-    /// The page of an EtherCAT segment.
-    Segment(&'p segment::Shown),
-    /// A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
-    List {
-        devices: &'p [Listed],
-        is_part: bool,
-    },
+/// Declares the content of each kind of page with its templates for HTML and Markdown. The templates use this content, the
+/// frameset and the name of the file.
+macro_rules! pages {
+    ($($page:ident = $html:literal, $markdown:literal { $($field:ident: $ty:ty),+ })+) => {
+        /// The content of a page.
+        #[derive(Clone, Copy)]
+        pub(super) enum Content<'p> { $($page { $($field: $ty),+ },)+ }
+
+        impl Content<'_> {
+            template!(html, $($page = $html { $($field: $ty),+ })+);
+            template!(markdown, $($page = $markdown { $($field: $ty),+ })+);
+        }
+    };
+}
+
+/// Defines the method that writes a page in a format.
+macro_rules! template {
+    ($format:ident, $($page:ident = $path:literal { $($field:ident: $ty:ty),+ })+) => {
+        pub fn $format(self, frame: &Frameset, file: &str) -> String {
+            match self { $(
+                Content::$page { $($field),+ } => {
+                    #[derive(Template)]
+                    #[template(path = $path)]
+                    #[allow(dead_code)]
+                    struct Page<'p> { frame: &'p Frameset, file: &'p str, $($field: $ty),+ }
+                    $format::written(&Page { frame, file, $($field),+ })
+                }
+            )+ }
+        }
+    };
+}
+
+pages! {
+    Overview = "overview.html", "markdown/overview.md" { overview: &'p Overview, contents: &'p Contents }
+    Area = "area.html", "markdown/area.md" { area: &'p Area }
+    Process = "process.html", "markdown/process.md" { part: &'p ProcessPart, sync_managers: &'p [SyncManager] }
+    Protocol = "protocol.html", "markdown/protocol.md" { protocol: &'p Protocol }
+    Codes = "codes.html", "markdown/codes.md" { tables: &'p [Codes] }
+    Machines = "machines.html", "markdown/machines.md" { behavior: &'p Behavior }
+    Modules = "modules.html", "markdown/modules.md" { modules: &'p [ModuleModel] }
+    Assumptions = "assumptions.html", "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
+    Diagnostics = "diagnostics.html", "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
+    Changes = "changes.html", "markdown/changes.md" { comparison: &'p Comparison }
+    Network = "network.html", "markdown/network.md" { network: &'p network::Shown }
+    Segment = "segment.html", "markdown/segment.md" { segment: &'p segment::Shown }
+    // A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
+    List = "list.html", "markdown/list.md" { devices: &'p [Listed], is_part: bool }
 }
 
 /// An output format, which writes the text of each page.

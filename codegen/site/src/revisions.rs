@@ -113,7 +113,7 @@ impl Changes {
         let (old, new) = (format!("Revision {}", self.previous.old), self.previous.new.clone());
         let title = self.previous.title();
         let comparison = Comparison { title, old, new, summary: Summary::of(&changes), changes };
-        let text = format.page(&self.frame, &self.file, Content::Changes(&comparison));
+        let text = format.page(&self.frame, &self.file, Content::Changes { comparison: &comparison });
         Page { path: format!("{}/{}", self.folder, self.file), text }
     }
 }
