@@ -81,126 +81,77 @@ pub enum Party {
     Unknown,
 }
 
-/// The network, as the templates show it.
-#[derive(Debug)]
-pub(super) struct Shown {
-    pub title: String,
-    pub summary: String,
-    pub nodes: Vec<ShownNode>,
-    pub frames: Vec<ShownFrame>,
-}
+impl Network {
+    pub(super) fn title(&self) -> String {
+        format!("Network {}", self.name)
+    }
 
-#[derive(Debug)]
-pub(super) struct ShownNode {
-    pub anchor: String,
-    pub name: String,
-    pub id: String,
-    pub device: String,
-    /// Path of the first page of the device. Empty if the site does not contain the device.
-    pub target: String,
-    pub facts: String,
-    /// Address, name and value of each parameter.
-    pub parameters: Vec<(String, String, String)>,
-}
+    pub(super) fn summary(&self) -> String {
+        sentence(&capital(&self.summary))
+    }
 
-#[derive(Debug)]
-pub(super) struct ShownFrame {
-    pub name: String,
-    pub can_id: String,
-    pub sender: ShownParty,
-    pub receivers: Vec<ShownParty>,
-    pub timing: String,
-    pub bytes: u32,
-    pub rate: String,
-    pub load: String,
-    pub objects: String,
-}
-
-#[derive(Debug)]
-pub(super) struct ShownParty {
-    pub name: String,
-    /// Path and anchor of the PDO, or path of the device's first page. Empty if there is no page.
-    pub target: String,
-}
-
-impl Shown {
-    pub fn new(network: &Network, devices: &[Option<&Listed>]) -> Self {
-        let mut frames: Vec<&Frame> = network.frames.iter().collect();
+    /// Returns the frames, sorted by CAN-ID.
+    pub(super) fn sorted(&self) -> Vec<&Frame> {
+        let mut frames: Vec<&Frame> = self.frames.iter().collect();
         frames.sort_by_key(|frame| frame.can_id);
-        let node = |(node, device): (&Node, &Option<&Listed>)| ShownNode::new(node, *device);
-        Shown {
-            title: format!("Network {}", network.name),
-            summary: sentence(&capital(&network.summary)),
-            nodes: network.nodes.iter().zip(devices).map(node).collect(),
-            frames: frames.into_iter().map(|frame| ShownFrame::new(frame, network, devices)).collect(),
+        frames
+    }
+
+    /// Returns the name of a sender or receiver.
+    pub(super) fn party(&self, party: &Party) -> &str {
+        match party {
+            Party::Master => "master",
+            Party::Unknown => "unknown",
+            Party::Node(at, _) => &self.nodes[*at].name,
         }
     }
 
     /// Returns whether the master writes values to at least one node.
-    pub fn has_parameters(&self) -> bool {
+    pub(super) fn has_parameters(&self) -> bool {
         self.nodes.iter().any(|node| !node.parameters.is_empty())
     }
 }
 
-impl ShownNode {
-    fn new(node: &Node, device: Option<&Listed>) -> Self {
-        let parameter = |parameter: &Parameter| {
-            let (index, sub_index) = parameter.object;
-            (number::object(index, sub_index), parameter.name.clone(), parameter.value.clone())
-        };
-        ShownNode {
-            anchor: format!("node-{}", node.id),
-            name: node.name.clone(),
-            id: format!("{} ({})", node.id, hex8(node.id)),
-            device: device.map(|device| device.title.clone()).unwrap_or_default(),
-            target: device.map(|device| device.path_from("..")).unwrap_or_default(),
-            facts: node.facts.join(" "),
-            parameters: node.parameters.iter().map(parameter).collect(),
-        }
+impl Node {
+    pub(super) fn number(&self) -> String {
+        format!("{} ({})", self.id, hex8(self.id))
+    }
+}
+
+impl Parameter {
+    pub(super) fn number(&self) -> String {
+        number::object(self.object.0, self.object.1)
     }
 }
 
 impl Frame {
-    /// Returns the bus load of the frame in bits per second, or `None` if the rate is unbounded.
-    fn load(&self) -> Option<f64> {
-        Some(self.rate? * f64::from(self.bits))
+    pub(super) fn number(&self) -> String {
+        hex(self.can_id)
+    }
+
+    /// Returns the number of frames per second.
+    pub(super) fn shown_rate(&self) -> String {
+        self.rate.map_or_else(|| UNLIMITED.to_owned(), |rate| format!("{rate:.1}"))
+    }
+
+    /// Returns the bus load of the frame as a percentage of the bit rate.
+    pub(super) fn load(&self, network: &Network) -> String {
+        let percent =
+            |rate: f64| format!("{:.1} %", 100.0 * (rate * f64::from(self.bits)) / f64::from(network.bit_rate));
+        self.rate.map_or_else(|| UNLIMITED.to_owned(), percent)
     }
 }
 
-impl ShownFrame {
-    fn new(frame: &Frame, network: &Network, devices: &[Option<&Listed>]) -> Self {
-        let party = |party: &Party| ShownParty::new(party, network, devices);
-        let unlimited = || "unlimited".to_owned();
-        ShownFrame {
-            name: frame.name.clone(),
-            can_id: hex(frame.can_id),
-            sender: party(&frame.sender),
-            receivers: frame.receivers.iter().map(party).collect(),
-            timing: frame.timing.clone(),
-            bytes: frame.bytes,
-            rate: frame.rate.map_or_else(unlimited, |rate| format!("{rate:.1}")),
-            load: frame.load().map_or_else(unlimited, |load| percent(load, network.bit_rate)),
-            objects: frame.objects.join(", "),
-        }
-    }
-}
+const UNLIMITED: &str = "unlimited";
 
-impl ShownParty {
-    fn new(party: &Party, network: &Network, devices: &[Option<&Listed>]) -> Self {
-        let (at, mapping_index) = match party {
-            Party::Master => return ShownParty { name: "master".to_owned(), target: String::new() },
-            Party::Unknown => return ShownParty { name: "unknown".to_owned(), target: String::new() },
-            Party::Node(at, mapping_index) => (*at, *mapping_index),
-        };
-        let target = devices[at].map(|device| match device.process_data().filter(|_| mapping_index != 0) {
-            Some(page) => format!("../{page}#{}", hex16(mapping_index)),
+impl Party {
+    /// Returns the path and anchor of the PDO, or the path of the device's first page, if there is such a page.
+    pub(super) fn target(&self, devices: &[Option<&Listed>]) -> Option<String> {
+        let Party::Node(at, mapping_index) = self else { return None };
+        let device = devices[*at]?;
+        Some(match device.process_data().filter(|_| *mapping_index != 0) {
+            Some(page) => format!("../{page}#{}", hex16(*mapping_index)),
             None => device.path_from(".."),
-        });
-        ShownParty { name: network.nodes[at].name.clone(), target: target.unwrap_or_default() }
+        })
     }
-}
-
-/// Returns a number of bits per second as a percentage of the bit rate.
-fn percent(load: f64, bit_rate: u32) -> String {
-    format!("{:.1} %", 100.0 * load / f64::from(bit_rate))
 }

@@ -12,12 +12,14 @@ use super::links::Links;
 use super::listed::{Listed, ListedCatalog, PageLink};
 use super::machines::Behavior;
 use super::modules::ModuleModel;
+use super::network::Network;
 use super::overview::{Contents, Overview};
 use super::process::{ProcessPart, SyncManager};
 use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
-use super::{html, markdown, network, segment, Page};
+use super::segment::Segment;
+use super::{html, markdown, Page};
 
 /// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
@@ -129,8 +131,8 @@ pages! {
     Assumptions = "assumptions.html", "markdown/assumptions.md" { ranked: &'p [Ranked<'p>] }
     Diagnostics = "diagnostics.html", "markdown/diagnostics.md" { groups: &'p [DiagnosticGroup<'p>] }
     Changes = "changes.html", "markdown/changes.md" { comparison: &'p Comparison }
-    Network = "network.html", "markdown/network.md" { network: &'p network::Shown }
-    Segment = "segment.html", "markdown/segment.md" { segment: &'p segment::Shown }
+    Network = "network.html", "markdown/network.md" { network: &'p Network, devices: &'p [Option<&'p Listed>] }
+    Segment = "segment.html", "markdown/segment.md" { segment: &'p Segment, devices: &'p [Option<&'p Listed>] }
     // A list of devices, in a catalog or in the site. `is_part` is set if the list has several pages.
     List = "list.html", "markdown/list.md" { devices: &'p [Listed], is_part: bool }
 }

@@ -1,7 +1,5 @@
 //! Data of the page of an EtherCAT segment: the SubDevices in the order of the bus, with their settings.
 
-use super::listed::Listed;
-
 /// An EtherCAT segment.
 #[derive(Clone, Debug, Default)]
 pub struct Segment {
@@ -39,47 +37,14 @@ pub struct Table {
     pub rows: Vec<Vec<String>>,
 }
 
-/// The segment, as the templates show it.
-#[derive(Debug)]
-pub(super) struct Shown {
-    pub title: String,
-    pub summary: String,
-    pub subdevices: Vec<ShownSubDevice>,
-}
-
-#[derive(Debug)]
-pub(super) struct ShownSubDevice {
-    pub anchor: String,
-    pub name: String,
-    pub position: String,
-    pub device: String,
-    /// Path of the first page of the device. Empty if the site does not contain the device.
-    pub target: String,
-    pub facts: String,
-    pub tables: Vec<Table>,
-}
-
-impl Shown {
-    pub fn new(segment: &Segment, devices: &[Option<&Listed>]) -> Self {
-        let subdevice = |(subdevice, device): (&SubDevice, &Option<&Listed>)| ShownSubDevice::new(subdevice, *device);
-        Shown {
-            title: format!("EtherCAT segment {}", segment.name),
-            summary: segment.summary.clone(),
-            subdevices: segment.subdevices.iter().zip(devices).map(subdevice).collect(),
-        }
+impl Segment {
+    pub(super) fn title(&self) -> String {
+        format!("EtherCAT segment {}", self.name)
     }
 }
 
-impl ShownSubDevice {
-    fn new(subdevice: &SubDevice, device: Option<&Listed>) -> Self {
-        ShownSubDevice {
-            anchor: format!("subdevice-{}", subdevice.position),
-            name: subdevice.name.clone(),
-            position: subdevice.position.to_string(),
-            device: device.map(|device| device.title.clone()).unwrap_or_default(),
-            target: device.map(|device| device.path_from("..")).unwrap_or_default(),
-            facts: subdevice.facts.join(" "),
-            tables: subdevice.tables.iter().filter(|table| !table.rows.is_empty()).cloned().collect(),
-        }
+impl SubDevice {
+    pub(super) fn shown_tables(&self) -> impl Iterator<Item = &Table> {
+        self.tables.iter().filter(|table| !table.rows.is_empty())
     }
 }
