@@ -40,8 +40,7 @@ pub(super) fn expression(
     if matches!(message.completion, Completion::Polled { in_reply: false, .. }) {
         return None;
     }
-    let named = steps.iter().filter(|step| field::name(step).is_some());
-    named.zip(fields).find_map(|(step, field)| {
+    field::steps_with_field(steps).zip(fields).find_map(|(step, field)| {
         let Step::Value { value, .. } = step else { return None };
         let command = value.completes?;
         let Completion::Polled { mask, value: expected, .. } = &messages.get(command.message.0 as usize)?.completion

@@ -1,7 +1,6 @@
 //! Methods of a device that send messages.
 
 use super::field::Field;
-use super::rules::Rules;
 use super::{DataModel, MessageModel};
 use crate::backend::rust::code::{Data, Doc};
 use crate::backend::rust::docs;
@@ -36,7 +35,6 @@ pub(in crate::backend::rust) struct CallModel {
 pub(super) fn calls(
     shaped: &[Shaped<'_>],
     messages: &[MessageModel],
-    rules: &Rules,
     reserved: &[&str],
     documentation: impl Fn(&Message) -> Vec<String>,
 ) -> Vec<CallModel> {
@@ -50,7 +48,7 @@ pub(super) fn calls(
     let mut calls = Vec::new();
     for ((shape, model, request), name) in with().zip(names) {
         let names = arguments(&request.fields);
-        let fields = request.fields.iter().zip(&names).map(|(field, name)| field.argument(name, rules));
+        let fields = request.fields.iter().zip(&names).map(|(field, name)| field.argument(name));
         let (arguments, built): (Vec<String>, Vec<(String, Doc)>) = fields.unzip();
         let lifetime = if request.borrows { "<'a>" } else { "" };
         let ty = format!("messages::{}", request.name);

@@ -1,7 +1,7 @@
 //! Fields of requests, replies and list entries.
 
 use super::rules::Rules;
-use super::steps::number;
+use super::steps::{number, reading};
 use crate::backend::rust::code::{call, seq, Doc};
 use crate::backend::rust::context::Context;
 use crate::backend::rust::docs::{self, WORDS};
@@ -12,13 +12,14 @@ use crate::backend::rust::value_type::{native, native_bits, ValueType};
 use crate::backend::rust::variant;
 use crate::ir::{Item, MessageValue, Type};
 use crate::names::{self, Case};
-use crate::resolve::messages::Step;
+use crate::resolve::messages::{tail, Step};
 
 /// Maximum length of a field's name, without a suffix that makes the name unique. The limit keeps the generated lines
 /// that write the field short.
 const MAX_NAME: usize = 24;
 
 /// A field, ready to be printed.
+#[derive(Default)]
 pub(in crate::backend::rust) struct Field {
     pub name: String,
     pub docs: Vec<String>,
@@ -29,33 +30,43 @@ pub(in crate::backend::rust) struct Field {
     pub attribute: Option<String>,
     /// Name of the constant for the field's scale, and the type of the scale.
     pub scale: Option<(String, Doc)>,
-    position: usize,
-    kind: FieldKind,
+    /// Number of bytes of a text. `None` if the field is not a text.
+    pub(super) text_length: Option<u32>,
+    /// True if the limits of the field are real numbers. Clippy reports literals that are close to a mathematical
+    /// constant.
+    pub(super) has_real_limits: bool,
+    /// Name of the constant with the encoding rule, if the field contains several parameters with their values.
+    settings_rule: Option<String>,
 }
 
-enum FieldKind {
-    Value { bits: u32, order: Vec<u8>, encode: String, decode: Doc, check: Option<Check> },
-    Text { length: u32 },
-    Code { bits: u32 },
-    Setting { space: String, bits: u32 },
-    Blank { space: String, bits: u32 },
-    Settings { space: String, bits: u32 },
-    ValueOnly { space: String },
-    List,
-    Bytes,
+/// The code that writes and reads a field.
+pub(super) struct Code {
+    pub write: Vec<Doc>,
+    pub read: Doc,
+    /// Name and value of the field. The value is calculated from the data that was read.
+    pub build: (String, Doc),
 }
 
 /// A range check: the Rust type, the expression of the value, and the allowed range.
 type Check = (String, String, Doc);
 
-/// Returns the fields for these steps. `entry` is the name of the type of list entries.
-pub(super) fn fields(context: &Context<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
-    let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
-    let name_requests = names::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
+/// Returns the steps that have a field.
+pub(super) fn steps_with_field<'s, 'a>(steps: &'s [Step<'a>]) -> impl Iterator<Item = &'s Step<'a>> {
+    steps.iter().filter(|step| name(step).is_some())
+}
+
+/// Returns the fields for these steps and their code. `entry` is the name of the type of list entries.
+pub(super) fn fields(context: &Context<'_>, rules: &Rules, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, Vec<Code>) {
+    let name_requests = names::numbered(steps.iter().filter_map(name), "field");
     let reserved = ["self", "super", "crate"];
-    let names = names::unique_up_to(name_requests, &reserved, Case::Snake, MAX_NAME);
-    let all = with.iter().zip(&names).enumerate();
-    all.map(|(position, (step, name))| field(context, step, names::escaped(name), position, entry)).collect()
+    let mut names = names::unique_up_to(name_requests, &reserved, Case::Snake, MAX_NAME).into_iter().enumerate();
+    let field = |(at, step): (usize, &Step<'_>)| {
+        name(step)?;
+        let (position, name) = names.next()?;
+        let tail = tail(steps.get(at + 1..).unwrap_or_default());
+        Some(field(context, rules, step, tail, names::escaped(&name), format!("value_{position}"), entry))
+    };
+    steps.iter().enumerate().filter_map(field).unzip()
 }
 
 /// Returns the name of a step's field. Returns `None` if the step has no field.
@@ -72,74 +83,113 @@ pub(super) fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
     })
 }
 
-fn field(context: &Context<'_>, step: &Step<'_>, name: String, position: usize, entry: &str) -> Field {
-    let plain = |ty: &str, docs: &str, kind: FieldKind| Field {
-        name: name.clone(),
-        docs: vec![docs.to_owned()],
-        ty: ty.to_owned(),
-        ty_at_top: ty.to_owned(),
-        attribute: None,
-        scale: None,
-        position,
-        kind,
+/// Returns the field of a step and its code. `local` is the name of the variable that holds the undecoded value. `tail` is
+/// the number of bytes after the field.
+fn field(
+    context: &Context<'_>,
+    rules: &Rules,
+    step: &Step<'_>,
+    tail: u32,
+    name: String,
+    local: String,
+    entry: &str,
+) -> (Field, Code) {
+    let plain = |ty: &str, docs: &str, write: Doc, read: String, value: Doc| {
+        let (ty_at_top, docs) = (ty.to_owned(), vec![docs.to_owned()]);
+        let field = Field { name: name.clone(), docs, ty: ty.to_owned(), ty_at_top, ..Field::default() };
+        (field, Code { write: vec![write], read: read_as(&local, read), build: (name.clone(), value) })
     };
+    let number = "Number of the parameter.";
+    let rest = format!("from.but({tail})?");
+    let raw = Doc::from(local.as_str());
     match step {
-        Step::Value { bits, value } => typed(context, value, *bits, name, position),
-        Step::Code { bits, .. } => plain("rt::Parameter", "Number of the parameter.", FieldKind::Code { bits: *bits }),
-        Step::Blank { bits, space } => plain(
-            "rt::Parameter",
-            "Number of the parameter.",
-            FieldKind::Blank { space: space.to_string(), bits: *bits },
-        ),
-        Step::Setting { bits, space } => plain(
-            "rt::message::Setting",
-            "The parameter and its value.",
-            FieldKind::Setting { space: space.to_string(), bits: *bits },
-        ),
-        Step::Settings { bits, space, .. } => plain(
-            "rt::message::Settings<'a>",
-            "Parameters and their values.",
-            FieldKind::Settings { space: space.to_string(), bits: *bits },
-        ),
-        Step::ValueOnly { space, .. } => plain(
-            "&'a [u8]",
-            "Bytes of the parameter's value, in the byte order of the message.",
-            FieldKind::ValueOnly { space: space.to_string() },
-        ),
-        Step::List { .. } => Field {
-            ty_at_top: format!("rt::message::List<'a, messages::{entry}>"),
-            ..plain(&format!("rt::message::List<'a, {entry}>"), "Entries of the list.", FieldKind::List)
-        },
-        _ => plain("&'a [u8]", "All remaining bytes of the message.", FieldKind::Bytes),
+        Step::Value { value, bits } => typed(context, value, *bits, name, &local),
+        Step::Code { bits, .. } => {
+            let write = seq!["to.number(", *bits, ", self.", name, ".0.into())?;"];
+            let value = seq!["rt::Parameter(", raw, " as u32)"];
+            let (field, mut code) = plain("rt::Parameter", number, write, format!("from.number({bits})?"), value);
+            if *bits < 32 {
+                let last = (1_u64 << bits) - 1;
+                let check = format!("rt::message::check::<u32>(self.{name}.0, &rt::Range::To({last}))?;");
+                code.write.insert(0, Doc::from(check));
+            }
+            (field, code)
+        }
+        Step::Blank { bits, space } => {
+            let rule = rules.name(space, Some(*bits));
+            let write = seq![rule, ".write_blank(self.", name, ", to)?;"];
+            plain("rt::Parameter", number, write, format!("{rule}.read_blank(from)?"), raw)
+        }
+        Step::Setting { bits, space } => {
+            let rule = rules.name(space, Some(*bits));
+            let write = seq![rule, ".write(&self.", name, ", to)?;"];
+            let read = format!("{rule}.read_to(from, {tail})?");
+            plain("rt::message::Setting", "The parameter and its value.", write, read, raw)
+        }
+        Step::Settings { bits, space, .. } => {
+            let rule = rules.name(space, Some(*bits));
+            let write = seq!["self.", name, ".write(to)?;"];
+            let value = seq![call!("rt::message::Settings::received", raw, rule), "?"];
+            let (ty, docs) = ("rt::message::Settings<'a>", "Parameters and their values.");
+            let (field, code) = plain(ty, docs, write, rest, value);
+            (Field { settings_rule: Some(rule.to_owned()), ..field }, code)
+        }
+        Step::List { length, is_counted, .. } => {
+            let ty = format!("rt::message::List<'a, {entry}>");
+            let read = match is_counted {
+                true => format!("from.bytes(count.checked_mul({length})?)?"),
+                false => rest,
+            };
+            let write = seq!["self.", name, ".write(to)?;"];
+            let (field, code) =
+                plain(&ty, "Entries of the list.", write, String::new(), seq!["rt::message::List::received(list)?"]);
+            let ty_at_top = format!("rt::message::List<'a, messages::{entry}>");
+            (Field { ty_at_top, ..field }, Code { read: read_as("list", read), ..code })
+        }
+        _ => {
+            let docs = match step {
+                Step::ValueOnly { .. } => "Bytes of the parameter's value, in the byte order of the message.",
+                _ => "All remaining bytes of the message.",
+            };
+            plain("&'a [u8]", docs, seq!["to.bytes(self.", name, ")?;"], rest, raw)
+        }
     }
 }
 
-fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, position: usize) -> Field {
-    let item = &value.item;
+/// Returns the statement that reads a value into a variable.
+fn read_as(local: &str, read: String) -> Doc {
+    seq!["let ", local, " = ", read, ";"]
+}
+
+fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, local: &str) -> (Field, Code) {
+    let (item, order) = (&value.item, &value.byte_order);
     let field_type = field_type(context, item.ty, bits);
     let named_at_top = matches!(field_type, FieldType::Named(..)).then(|| field_type.path(""));
     let base = context.base(item.ty);
-    let (ty, kind) = match field_type {
-        FieldType::Bytes(length) => (format!("[u8; {length}]"), FieldKind::Text { length }),
+    let (mut check, mut text_length) = (None, None);
+    let (ty, write, read, value) = match field_type {
+        FieldType::Bytes(length) => {
+            text_length = Some(length);
+            let write = seq!["to.bytes(&self.", name, ")?;"];
+            (format!("[u8; {length}]"), write, format!("bytes({length})"), seq![local, ".try_into().ok()?"])
+        }
         // If no primitive integer has the width of the number, the number is stored in a wider primitive integer and
         // needs a range check.
         FieldType::Odd(signed, _) => {
             let native = native(signed, bits);
             let width = native_bits(native);
-            let local = local(position);
             let decode = match (signed, native) {
                 (true, _) => format!("({local} << {0}) as {native} >> {0}", width - bits),
-                (false, "u64") => local,
+                (false, "u64") => local.to_owned(),
                 (false, _) => format!("{local} as {native}"),
             };
-            let decode = Doc::from(decode);
             let encode = match (signed, native) {
                 (false, "u64") => format!("self.{name}"),
                 (true, "i64") | (false, _) => format!("self.{name} as u64"),
                 (true, _) => format!("self.{name} as u{width} as u64"),
             };
-            let check = narrow(item, base, native, format!("self.{name}"));
-            (native.to_owned(), FieldKind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
+            check = narrow(item, base, native, format!("self.{name}"));
+            (native.to_owned(), number(bits, order, &encode), reading(bits, order), Doc::from(decode))
         }
         other => {
             let ty = other.path("super::");
@@ -148,7 +198,7 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
                 FieldType::Named(..) => context.enumeration(item.ty).map_or(base, |named| named.ty),
                 _ => base,
             };
-            let check = match &other {
+            check = match &other {
                 // This check uses the raw value. The list of allowed values is a `'static` slice, which cannot contain
                 // the calls that create variants.
                 FieldType::Named(_, native)
@@ -161,19 +211,23 @@ fn typed(context: &Context<'_>, value: &MessageValue, bits: u32, name: String, p
             };
             let encode = other.encode(&format!("self.{name}"), bits);
             let encode = if ty == "u64" { format!("self.{name}") } else { encode };
-            let decode = other.decode(&ty, &Doc::from(local(position)));
-            (ty.clone(), FieldKind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
+            let decode = other.decode(&ty, &Doc::from(local));
+            (ty, number(bits, order, &encode), reading(bits, order), decode)
         }
+    };
+    let has_real_limits = check.as_ref().is_some_and(|(ty, ..)| ty.starts_with('f'));
+    let check = check.into_iter().flat_map(|(ty, value, range)| {
+        [seq!["let range = ", range, ";"], seq!["rt::message::check::<", ty, ">(", value, ", &range)?;"]]
+    });
+    let code = Code {
+        write: check.chain([write]).collect(),
+        read: read_as(local, format!("from.{read}?")),
+        build: (name.clone(), value),
     };
     let quantity = quantity::of(context, item).filter(|_| !ty.contains("::"));
     let scale = quantity.map(|quantity| (constant(&name), quantity.path));
-    let ty_at_top = named_at_top.unwrap_or_else(|| ty.clone());
-    Field { docs: documentation(context, item, base), ty, ty_at_top, attribute: None, scale, position, kind, name }
-}
-
-/// Returns the name of the variable that holds the undecoded value of the field at `position`.
-fn local(position: usize) -> String {
-    format!("value_{position}")
+    let (ty_at_top, docs) = (named_at_top.unwrap_or_else(|| ty.clone()), documentation(context, item, base));
+    (Field { name, docs, ty, ty_at_top, scale, text_length, has_real_limits, ..Field::default() }, code)
 }
 
 /// Returns the range check of a field's value. Returns `None` if all numbers of the type are allowed.
@@ -223,119 +277,20 @@ fn documentation(context: &Context<'_>, item: &Item, base: Type) -> Vec<String> 
 }
 
 impl Field {
-    /// Returns the name of the variable that holds the undecoded value of the field.
-    pub(super) fn local(&self) -> String {
-        match self.kind {
-            FieldKind::List => "list".to_owned(),
-            _ => local(self.position),
-        }
-    }
-
     /// Returns whether the field borrows from the message data.
     pub(super) fn borrows(&self) -> bool {
         self.ty.contains("'a")
     }
 
-    /// Returns the number of bytes of a text. Returns `None` if the field is not a text.
-    pub(super) fn text_length(&self) -> Option<u32> {
-        match self.kind {
-            FieldKind::Text { length } => Some(length),
-            _ => None,
-        }
-    }
-
-    /// Returns whether the limits of the field are real numbers. Clippy reports literals that are close to a
-    /// mathematical constant.
-    pub(super) fn has_real_limits(&self) -> bool {
-        matches!(&self.kind, FieldKind::Value { check: Some((ty, ..)), .. } if ty.starts_with('f'))
-    }
-
-    /// Returns whether the field is a list.
-    pub(super) fn is_list(&self) -> bool {
-        matches!(self.kind, FieldKind::List)
-    }
-
-    /// Returns whether the field contains the value of a single parameter from the parameter space `space`.
-    pub(super) fn is_value_of(&self, space: &str) -> bool {
-        match &self.kind {
-            FieldKind::Setting { space: of_field, .. } | FieldKind::ValueOnly { space: of_field } => of_field == space,
-            _ => false,
-        }
-    }
-
     /// Returns the method argument `name`, which sets the field, and the field initializer that uses this argument.
-    pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, (String, Doc)) {
-        match &self.kind {
-            FieldKind::Settings { space, bits } => {
-                let rule = format!("messages::{}", rules.name(space, Some(*bits)));
-                let sent = call!("rt::message::Settings::sent", name, rule);
-                (format!("{name}: &'a [rt::message::Setting]"), (self.name.clone(), sent))
+    pub(super) fn argument(&self, name: &str) -> (String, (String, Doc)) {
+        let (ty, value) = match &self.settings_rule {
+            Some(rule) => {
+                let sent = call!("rt::message::Settings::sent", name, format!("messages::{rule}"));
+                ("&'a [rt::message::Setting]", sent)
             }
-            _ => (format!("{name}: {}", self.ty_at_top), (self.name.clone(), Doc::from(name))),
-        }
-    }
-
-    pub(super) fn write(&self, rules: &Rules) -> Vec<Doc> {
-        let name = &self.name;
-        match &self.kind {
-            FieldKind::Value { bits, order, encode, check, .. } => {
-                let mut lines = Vec::new();
-                if let Some((ty, value, range)) = check {
-                    lines.push(seq!["let range = ", range, ";"]);
-                    lines.push(seq!["rt::message::check::<", ty, ">(", value, ", &range)?;"]);
-                }
-                lines.push(number(*bits, order, encode));
-                lines
-            }
-            FieldKind::Text { .. } => vec![seq!["to.bytes(&self.", name, ")?;"]],
-            FieldKind::Code { bits } => {
-                let mut lines = Vec::new();
-                if *bits < 32 {
-                    let last = (1_u64 << bits) - 1;
-                    let check = format!("rt::message::check::<u32>(self.{name}.0, &rt::Range::To({last}))?;");
-                    lines.push(Doc::from(check));
-                }
-                lines.push(seq!["to.number(", *bits, ", self.", name, ".0.into())?;"]);
-                lines
-            }
-            FieldKind::Setting { space, bits } => {
-                vec![seq![rules.name(space, Some(*bits)), ".write(&self.", name, ", to)?;"]]
-            }
-            FieldKind::Blank { space, bits } => {
-                vec![seq![rules.name(space, Some(*bits)), ".write_blank(self.", name, ", to)?;"]]
-            }
-            FieldKind::Settings { .. } | FieldKind::List => vec![seq!["self.", name, ".write(to)?;"]],
-            FieldKind::ValueOnly { .. } | FieldKind::Bytes => vec![seq!["to.bytes(self.", name, ")?;"]],
-        }
-    }
-
-    pub(super) fn read(&self, rules: &Rules, tail: u32) -> String {
-        match &self.kind {
-            FieldKind::Value { bits, order, .. } if order.is_empty() => format!("from.number({bits})?"),
-            FieldKind::Value { order, .. } => format!("from.ordered(&{order:?})?"),
-            FieldKind::Text { length } => format!("from.bytes({length})?"),
-            FieldKind::Code { bits } => format!("from.number({bits})?"),
-            FieldKind::Setting { space, bits } => format!("{}.read_to(from, {tail})?", rules.name(space, Some(*bits))),
-            FieldKind::Blank { space, bits } => format!("{}.read_blank(from)?", rules.name(space, Some(*bits))),
-            FieldKind::Settings { .. } | FieldKind::ValueOnly { .. } | FieldKind::List | FieldKind::Bytes => {
-                format!("from.but({tail})?")
-            }
-        }
-    }
-
-    pub(super) fn decode(&self, rules: &Rules) -> Doc {
-        let local = self.local();
-        match &self.kind {
-            FieldKind::Value { decode, .. } => decode.clone(),
-            FieldKind::Text { .. } => seq![local, ".try_into().ok()?"],
-            FieldKind::Code { .. } => seq!["rt::Parameter(", local, " as u32)"],
-            FieldKind::Setting { .. } | FieldKind::Blank { .. } | FieldKind::ValueOnly { .. } | FieldKind::Bytes => {
-                Doc::from(local)
-            }
-            FieldKind::Settings { space, bits } => {
-                seq![call!("rt::message::Settings::received", local, rules.name(space, Some(*bits))), "?"]
-            }
-            FieldKind::List => seq!["rt::message::List::received(", local, ")?"],
-        }
+            None => (self.ty_at_top.as_str(), Doc::from(name)),
+        };
+        (format!("{name}: {ty}"), (self.name.clone(), value))
     }
 }

@@ -1,5 +1,6 @@
 //! Messages that read or write a single numbered parameter.
 
+use super::field::steps_with_field;
 use super::rules::Rules;
 use super::MessageModel;
 use crate::backend::rust::code::{call, Doc};
@@ -48,18 +49,12 @@ fn reading(shape: &Shaped<'_>, model: &MessageModel, rule: &str, rules: &Rules) 
     let (request, reply) = (model.request.as_ref()?, model.reply.as_ref()?);
     let field = request.fields.first()?;
     let build = (field.name.clone(), Doc::from("parameter"));
-    let steps = shape.reply.steps.iter();
-    let mut value = steps.filter_map(|step| match step {
-        Step::Setting { space, .. } => Some((true, *space)),
-        Step::ValueOnly { space, .. } => Some((false, *space)),
+    let values = steps_with_field(&shape.reply.steps).zip(&reply.fields).filter_map(|(step, field)| match step {
+        Step::Setting { .. } => Some(format!("reply.{}.copy(parameter, value)", field.name)),
+        Step::ValueOnly { space, .. } => Some(format!("{}.copy(reply.{}, value)", rules.name(space, None), field.name)),
         _ => None,
     });
-    let (with_number, space) = value.next_back()?;
-    let field = &reply.fields.iter().rfind(|field| field.is_value_of(space))?.name;
-    let value = match with_number {
-        true => format!("reply.{field}.copy(parameter, value)"),
-        false => format!("{}.copy(reply.{field}, value)", rules.name(space, None)),
-    };
+    let value = values.last()?;
     Some(Arm { rule: rule.to_owned(), message: request.name.clone(), build: vec![build], value })
 }
 

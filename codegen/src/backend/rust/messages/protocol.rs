@@ -110,7 +110,7 @@ impl ProtocolModel {
         }
         let documentation = |message: &Message| make.documentation(message, DocModule::TOP);
         let calls = match options.accessors {
-            true => device::calls(shapes, &messages, &rules, reserved, documentation),
+            true => device::calls(shapes, &messages, reserved, documentation),
             false => Vec::new(),
         };
         Some(ProtocolModel {
@@ -133,7 +133,7 @@ impl ProtocolModel {
         let sides = self.messages.iter().flat_map(|message| message.request.iter().chain(&message.reply));
         let mut fields =
             sides.flat_map(|side| side.fields.iter().chain(side.entry.iter().flat_map(|entry| &entry.fields)));
-        fields.any(Field::has_real_limits)
+        fields.any(|field| field.has_real_limits)
     }
 
     /// Returns whether some requests determine the meaning of other requests.
@@ -207,8 +207,7 @@ impl Maker<'_, '_> {
     }
 
     fn data(&self, steps: &[Step<'_>], name: &str, entry: &str) -> DataModel {
-        let (fields, borrows) = self.fields(steps, entry);
-        let code = steps::statements(steps, &fields, self.rules);
+        let (fields, code, borrows) = self.fields(steps, entry);
         let entry = steps.iter().find_map(|step| match step {
             Step::List { steps, length, .. } => Some(self.entry(steps, *length, name, entry)),
             _ => None,
@@ -226,8 +225,7 @@ impl Maker<'_, '_> {
     }
 
     fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
-        let (fields, borrows) = self.fields(steps, "");
-        let mut code = steps::statements(steps, &fields, self.rules);
+        let (fields, mut code, borrows) = self.fields(steps, "");
         // Remove the check for the end of the data, because another list entry may follow.
         code.read.pop();
         EntryModel {
@@ -240,15 +238,15 @@ impl Maker<'_, '_> {
         }
     }
 
-    /// Returns the fields of a struct, and whether any of them borrows from the data.
-    fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
-        let mut fields = field::fields(self.context, steps, entry);
+    /// Returns the fields of a struct, its code, and whether any field borrows from the data.
+    fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, Statements, bool) {
+        let (mut fields, codes) = field::fields(self.context, self.rules, steps, entry);
         let borrows = fields.iter().any(Field::borrows);
         // If the struct borrows, `serde` is not derived and the fields need no attribute.
         for field in fields.iter_mut().filter(|_| !borrows) {
-            field.attribute = field.text_length().and_then(|length| self.options.octets_attribute(length));
+            field.attribute = field.text_length.and_then(|length| self.options.octets_attribute(length));
         }
-        (fields, borrows)
+        (fields, steps::statements(steps, codes), borrows)
     }
 
     /// Returns the `derive` attributes of a struct. Structs that borrow, for example those with a list, support neither

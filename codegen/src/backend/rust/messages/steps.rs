@@ -1,11 +1,10 @@
 //! Generates the statements that write and read the data of a message.
 
-use super::field::Field;
-use super::rules::Rules;
+use super::field::{steps_with_field, Code};
 use crate::backend::rust::code::{call, seq, Doc};
 use crate::ir::{Limits, Value};
 use crate::number::hex8;
-use crate::resolve::messages::{tail, Step};
+use crate::resolve::messages::Step;
 
 /// The statements for writing and reading a request or a reply.
 #[derive(Default)]
@@ -28,22 +27,30 @@ impl Statements {
         self.write.push(write.into());
         self.read.push(read.into());
     }
+
+    /// Adds the code of a field.
+    fn field(&mut self, code: Option<Code>) {
+        let Some(Code { write, read, build }) = code else { return };
+        self.write.extend(write);
+        self.read.push(read);
+        self.build.push(build);
+    }
 }
 
 /// Maximum number of fixed bytes in one line of generated code.
 const LINE: usize = 8;
 
-/// Returns the statements for these steps. `fields` contains the steps' fields in order.
-pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) -> Statements {
+/// Returns the statements for these steps. `codes` contains the code of the steps' fields in order.
+pub(super) fn statements(steps: &[Step<'_>], codes: Vec<Code>) -> Statements {
     let mut statements = Statements::default();
-    let list = fields.iter().find(|field| field.is_list()).map_or("", |field| field.name.as_str());
-    let mut fields = fields.iter();
+    let list = steps_with_field(steps).zip(&codes).find(|(step, _)| matches!(step, Step::List { .. }));
+    let list = list.map_or_else(String::new, |(_, code)| code.build.0.clone());
+    let mut codes = codes.into_iter();
     // Statements for writing that come after all others, because they need the total length.
     let mut end = Vec::new();
     // A check that follows the statement of the next step.
     let mut next = None;
-    for (at, step) in steps.iter().enumerate() {
-        let tail = tail(steps.get(at + 1..).unwrap_or_default());
+    for step in steps {
         let due = next.take();
         match step {
             Step::Bytes(bytes) => {
@@ -101,23 +108,19 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 let read = format!("let count = usize::try_from(from.number({bits})?).ok()?;");
                 statements.add(format!("to.number({bits}, count)?;"), read);
             }
-            Step::List { length, is_counted, max, .. } => {
+            Step::List { is_counted, max, .. } => {
                 statements.write.extend(
                     max.filter(|_| !is_counted).into_iter().flat_map(|max| limit(&format!("{list}.len()"), max)),
                 );
-                let list = match is_counted {
-                    true => format!("let list = from.bytes(count.checked_mul({length})?)?;").into(),
-                    false => format!("let list = from.but({tail})?;").into(),
-                };
-                value(&mut statements, fields.next(), Some(list), rules, tail);
+                statements.field(codes.next());
             }
             Step::Settings { max, .. } => {
-                let field = fields.next();
-                let name = field.map_or("", |field| field.name.as_str());
+                let code = codes.next();
+                let name = code.as_ref().map_or("", |code| code.build.0.as_str());
                 statements.write.extend(max.iter().flat_map(|max| limit(&format!("{name}.iter().count()"), *max)));
-                value(&mut statements, field, None, rules, tail);
+                statements.field(code);
             }
-            _ => value(&mut statements, fields.next(), None, rules, tail),
+            _ => statements.field(codes.next()),
         }
         statements.write.extend(due);
     }
@@ -135,7 +138,7 @@ pub(super) fn number(bits: u32, order: &[u8], value: &str) -> Doc {
 }
 
 /// Returns the method call that reads a number.
-fn reading(bits: u32, order: &[u8]) -> String {
+pub(super) fn reading(bits: u32, order: &[u8]) -> String {
     match order.is_empty() {
         true => format!("number({bits})"),
         false => format!("ordered(&{order:?})"),
@@ -166,16 +169,4 @@ fn limit(count: &str, max: u16) -> [Doc; 2] {
 fn array(bytes: &[u8]) -> String {
     let bytes: Vec<String> = bytes.iter().map(|byte| hex8(*byte)).collect();
     format!("[{}]", bytes.join(", "))
-}
-
-/// Adds the statements for a step that has a field.
-fn value(statements: &mut Statements, field: Option<&Field>, list: Option<Doc>, rules: &Rules, tail: u32) {
-    let Some(field) = field else { return };
-    let local = field.local();
-    statements.write.extend(field.write(rules));
-    match list {
-        Some(list) => statements.read.push(list),
-        None => statements.read.push(format!("let {local} = {};", field.read(rules, tail)).into()),
-    }
-    statements.build.push((field.name.clone(), field.decode(rules)));
 }
