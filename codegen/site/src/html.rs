@@ -12,7 +12,7 @@ use super::modules::ModuleModel;
 use super::pages::{Content, Frameset, Pages};
 use super::protocol::Protocol;
 use super::search::Index;
-use super::Page;
+use super::{written, Page};
 
 /// The style sheet of the pages.
 const STYLE: &str = include_str!("../templates/site.css");
@@ -104,11 +104,6 @@ struct LatestPage<'p> {
 /// The script of [`LatestPage`].
 const LATEST: &str = include_str!("../templates/script/latest.js");
 
-/// Renders a template. Rendering cannot fail because the templates contain no fallible expressions.
-pub(super) fn written(template: &impl Template) -> String {
-    template.render().unwrap_or_default()
-}
-
 /// The HTML format.
 pub(super) struct Html;
 
@@ -122,7 +117,7 @@ impl Pages for Html {
     }
 
     fn redirection(&self, title: &str, target: &str) -> Option<String> {
-        Some(written(&LatestPage { title, target }))
+        Some(written::html(&LatestPage { title, target }))
     }
 
     fn of_catalog(&self, index: &Index) -> Vec<Page> {

@@ -67,6 +67,7 @@ mod split;
 mod tools;
 mod twins;
 mod words;
+mod written;
 
 use std::rc::Rc;
 

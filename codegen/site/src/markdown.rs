@@ -12,7 +12,7 @@ use super::machines::Machine;
 use super::overview::Contents;
 use super::pages::{Content, Frameset, Pages, FIRST};
 use super::search::Index;
-use super::Page;
+use super::{written, Page};
 use lexibus_codegen::facts::markdown;
 
 /// Escapes Markdown and HTML characters and joins the lines of a text.
@@ -40,24 +40,6 @@ struct SummaryPage<'p> {
     further: &'p [(String, String)],
 }
 
-/// Renders a template and reduces consecutive empty lines to one. Rendering cannot fail because the templates contain
-/// no fallible expressions.
-pub(super) fn written(template: &impl Template) -> String {
-    let rendered = template.render().unwrap_or_default();
-    let mut text = String::with_capacity(rendered.len());
-    let mut was_empty = true;
-    for line in rendered.lines().map(str::trim_end) {
-        if !(was_empty && line.is_empty()) {
-            text.push_str(line);
-            text.push('\n');
-        }
-        was_empty = line.is_empty();
-    }
-    text.truncate(text.trim_end().len());
-    text.push('\n');
-    text
-}
-
 /// The Markdown format.
 pub(super) struct Markdown;
 
@@ -71,7 +53,7 @@ impl Pages for Markdown {
     }
 
     fn of_site(&self, catalogs: &[ListedCatalog], further: &[(String, String)], _: Option<&Index>) -> Vec<Page> {
-        vec![Page::new("SUMMARY.md", written(&SummaryPage { catalogs, further }))]
+        vec![Page::new("SUMMARY.md", written::markdown(&SummaryPage { catalogs, further }))]
     }
 }
 

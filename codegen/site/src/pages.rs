@@ -19,7 +19,7 @@ use super::protocol::Protocol;
 use super::revisions::Comparison;
 use super::search::Index;
 use super::segment::Segment;
-use super::{html, markdown, Page};
+use super::{written, Page};
 
 /// The file name of a folder's first page, without extension.
 pub(super) const FIRST: &str = "index";
@@ -113,7 +113,7 @@ macro_rules! template {
                     #[template(path = $path)]
                     #[allow(dead_code)]
                     struct Page<'p> { frame: &'p Frameset, file: &'p str, $($field: $ty),+ }
-                    $format::written(&Page { frame, file, $($field),+ })
+                    written::$format(&Page { frame, file, $($field),+ })
                 }
             )+ }
         }

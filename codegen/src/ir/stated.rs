@@ -1,7 +1,5 @@
 //! Facts that a description and its overlays state. Lints judge only these facts, and not the facts that profiles add.
 
-use std::sync::Arc;
-
 use super::owner::Owner;
 #[cfg(feature = "table")]
 use super::Documentation;
@@ -59,9 +57,9 @@ pub(crate) fn behavior(item: &Item) -> Option<&Behavior> {
 #[cfg(feature = "table")]
 pub(crate) fn description<'d>(
     origins: &FactOrigins,
-    documentation: &'d Option<Arc<Documentation>>,
+    documentation: Option<&'d Documentation>,
 ) -> Option<&'d Documentation> {
-    stated(origins, Fact::Description, documentation.as_deref())
+    stated(origins, Fact::Description, documentation)
 }
 
 /// Returns the code tables of a device, except those that profiles added.

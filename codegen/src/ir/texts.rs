@@ -17,7 +17,7 @@ pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     for group in &device.groups {
         // The texts of an object with a single value are those of its item, which are collected below.
         if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
-            let documentation = stated::description(&group.origins, &group.documentation);
+            let documentation = stated::description(&group.origins, group.documentation.as_deref());
             list.documented(group.origin.span, &group.name, documentation, &group.names);
         }
         group.items.iter().for_each(|item| list.item(item));
@@ -58,7 +58,7 @@ impl<'a> List<'a> {
 
     fn item(&mut self, item: &'a Item) {
         let span = item.origin.span;
-        let documentation = stated::description(&item.origins, &item.documentation);
+        let documentation = stated::description(&item.origins, item.documentation.as_deref());
         self.documented(item.at.others.documentation.or(span), &item.name, documentation, &item.names);
         let effects = stated::behavior(item).into_iter().flat_map(|behavior| &behavior.side_effects);
         effects.for_each(|effect| self.push(span, &item.name, effect));

@@ -162,7 +162,9 @@ fn machines_and_procedures() {
     assert_eq!(reported(&compilation), Vec::<String>::new());
     let device = device(&compilation);
     let machine = &device.machines[0];
-    let text = |item: &Option<std::sync::Arc<lexibus_codegen::ir::Documentation>>| item.as_ref().map(|entry| entry.text.clone());
+    let text = |item: &Option<std::sync::Arc<lexibus_codegen::ir::Documentation>>| {
+        item.as_ref().map(|entry| entry.text.clone())
+    };
     assert_eq!(text(&machine.documentation).as_deref(), Some("How it moves"));
     assert_eq!(text(&machine.states[0].documentation).as_deref(), Some("Nothing moves"));
     let transitions: Vec<_> = machine

@@ -11,10 +11,6 @@ use super::{catalog, device_names, model, objects, print, profiles, quantity};
 use crate::collections::HashMap;
 use crate::ir::{Catalog, Device, FileInfo, Item, ModuleId, Scale, SubmoduleId};
 
-/// Version of the interface between generated code and the runtime. The version must equal
-/// `lexibus::interface::VERSION`.
-pub const INTERFACE_VERSION: u32 = 1;
-
 /// Returns the Rust module for `catalog`. Returns `None` if the catalog has no element for which code can be generated.
 ///
 /// The code of a single device is at the top level. If the catalog has several devices, each device has its own Rust

@@ -73,10 +73,9 @@ mod words;
 
 pub use calls::{Calls, RecordUsage, Usage};
 pub use device_names::{module_name, stem_name as file_name};
-pub use emit::{
-    device_name, emit, emit_catalog, usage, usage_of_modules, usage_of_records, write_catalog, INTERFACE_VERSION,
-};
+pub use emit::{device_name, emit, emit_catalog, usage, usage_of_modules, usage_of_records, write_catalog};
 pub use options::{Presence, RustOptions};
+pub use print::INTERFACE_VERSION;
 #[cfg(feature = "gsdml")]
 pub use profinet::{profinet_program, ProfinetData, ProfinetProgram};
 pub use program::{program, Program, ProgramCia402, ProgramItem, ProgramMachine};

@@ -22,7 +22,10 @@ pub(super) mod views;
 use super::code::{line, Code, Declaration};
 use super::model::Model;
 use super::named::Types;
-use super::INTERFACE_VERSION;
+
+/// Version of the interface between generated code and the runtime. The version must equal
+/// `lexibus::interface::VERSION`.
+pub const INTERFACE_VERSION: u32 = 1;
 
 /// Prints the first lines of a file or of the module of a device.
 pub(super) fn start(code: &mut Code) {
