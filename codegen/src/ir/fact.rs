@@ -255,4 +255,17 @@ mod tests {
         origins.set(Fact::Unit, None);
         assert!(origins.is_empty());
     }
+
+    #[test]
+    fn equal_origins_share_one_list_until_one_of_them_changes() {
+        let rule = || FactOrigins::by_rule(&[Fact::Access], Rule::MissingKey);
+        let (mut recent, mut first, mut second) = (FactOrigins::default(), rule(), rule());
+        first.share(&mut recent);
+        second.share(&mut recent);
+        assert!(std::ptr::eq(&*first.0, &*second.0));
+        second.set(Fact::Unit, Some(overlay()));
+        assert_eq!((first.get(Fact::Unit), second.get(Fact::Unit)), (None, Some(&overlay())));
+        second.share(&mut recent);
+        assert!(std::ptr::eq(&*recent.0, &*second.0) && first == rule());
+    }
 }

@@ -19,6 +19,11 @@ pub struct SharedList<T>(Option<Arc<SmallVec<[T; 1]>>>);
 pub type Texts = SharedList<LocalText>;
 
 impl<T> SharedList<T> {
+    fn new(mut list: SmallVec<[T; 1]>) -> Self {
+        list.shrink_to_fit();
+        SharedList((!list.is_empty()).then(|| Arc::new(list)))
+    }
+
     /// Returns whether the list has no elements.
     pub fn is_empty(&self) -> bool {
         self.0.as_ref().is_none_or(|list| list.is_empty())
@@ -63,15 +68,13 @@ impl<T: Eq> Eq for SharedList<T> {}
 
 impl<T> From<Vec<T>> for SharedList<T> {
     fn from(list: Vec<T>) -> Self {
-        list.into_iter().collect()
+        SharedList::new(SmallVec::from_vec(list))
     }
 }
 
 impl<T> FromIterator<T> for SharedList<T> {
     fn from_iter<I: IntoIterator<Item = T>>(list: I) -> Self {
-        let mut list: SmallVec<[T; 1]> = list.into_iter().collect();
-        list.shrink_to_fit();
-        SharedList((!list.is_empty()).then(|| Arc::new(list)))
+        SharedList::new(list.into_iter().collect())
     }
 }
 
