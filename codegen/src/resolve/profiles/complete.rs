@@ -40,8 +40,7 @@ type Replaced = HashMap<(u16, u8), (Type, Type)>;
 
 impl<'p> Completion<'p> {
     pub(crate) fn new(profile: &'p Profile) -> Self {
-        let origins = vec![FactOrigins::default(); profile.objects.len()];
-        Completion { profile, types: Vec::new(), added: HashMap::default(), origins }
+        Completion { profile, types: Vec::new(), added: HashMap::default(), origins: Vec::new() }
     }
 
     /// Completes the objects, code tables and state machines of a device. `is_table` returns whether a file is a register table
@@ -92,6 +91,7 @@ impl<'p> Completion<'p> {
         let shifts = self.axes(groups);
         self.start(types);
         let (mut replaced, mut origins) = (Replaced::default(), std::mem::take(&mut self.origins));
+        origins.resize(self.profile.objects.len(), FactOrigins::default());
         for (described, origins) in self.profile.objects.iter().zip(&mut origins) {
             let (first, last) = described.indices;
             let is_of_axis = AXIS.contains(&first) && AXIS.contains(&last);
