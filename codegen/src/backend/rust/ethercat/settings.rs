@@ -22,8 +22,7 @@ pub(in super::super) fn device(
     let assigned = device.process_data.assigned_by_default();
     let pdos = PdoModels::new(pdos);
     let descriptor = descriptor::device(device, settings, &pdos, modules, &assigned);
-    let docs = format!("EtherCAT description of {title} for the master.");
-    let mut all = vec![Declaration::new([docs], "static DEVICE: rt::ethercat::Device", descriptor)];
+    let mut all = vec![description(title, "static DEVICE: rt::ethercat::Device", descriptor)];
     let modes = settings.clocks.iter().flat_map(|clocks| &clocks.modes);
     let lists: [(&str, &str, Vec<Doc>); 3] = [
         (
@@ -50,9 +49,11 @@ pub(in super::super) fn device(
 
 /// Returns the static `MODULE`.
 pub(in super::super) fn module(module: &Module, title: &str, pdos: &[PdoModel]) -> Declaration {
-    let docs = format!("EtherCAT description of {title} for the master.");
-    let descriptor = descriptor::module(module, &PdoModels::new(pdos));
-    Declaration::new([docs], "static MODULE: rt::ethercat::Module", descriptor)
+    description(title, "static MODULE: rt::ethercat::Module", descriptor::module(module, &PdoModels::new(pdos)))
+}
+
+fn description(title: &str, start: &str, descriptor: Doc) -> Declaration {
+    Declaration::new([format!("EtherCAT description of {title} for the master.")], start, descriptor)
 }
 
 fn fmmu(fmmu: &Fmmu) -> Doc {

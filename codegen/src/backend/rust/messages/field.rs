@@ -64,7 +64,11 @@ pub(super) fn fields(context: &Context<'_>, rules: &Rules, steps: &[Step<'_>], e
         name(step)?;
         let (position, name) = names.next()?;
         let tail = tail(steps.get(at + 1..).unwrap_or_default());
-        Some(field(context, rules, step, tail, names::escaped(&name), format!("value_{position}"), entry))
+        let local = match step {
+            Step::List { .. } => "list".to_owned(),
+            _ => format!("value_{position}"),
+        };
+        Some(field(context, rules, step, tail, names::escaped(&name), &local, entry))
     };
     steps.iter().enumerate().filter_map(field).unzip()
 }
@@ -91,19 +95,19 @@ fn field(
     step: &Step<'_>,
     tail: u32,
     name: String,
-    local: String,
+    local: &str,
     entry: &str,
 ) -> (Field, Code) {
     let plain = |ty: &str, docs: &str, write: Doc, read: String, value: Doc| {
         let (ty_at_top, docs) = (ty.to_owned(), vec![docs.to_owned()]);
         let field = Field { name: name.clone(), docs, ty: ty.to_owned(), ty_at_top, ..Field::default() };
-        (field, Code { write: vec![write], read: read_as(&local, read), build: (name.clone(), value) })
+        (field, Code { write: vec![write], read: read_as(local, read), build: (name.clone(), value) })
     };
     let number = "Number of the parameter.";
     let rest = format!("from.but({tail})?");
-    let raw = Doc::from(local.as_str());
+    let raw = Doc::from(local);
     match step {
-        Step::Value { value, bits } => typed(context, value, *bits, name, &local),
+        Step::Value { value, bits } => typed(context, value, *bits, name, local),
         Step::Code { bits, .. } => {
             let write = seq!["to.number(", *bits, ", self.", name, ".0.into())?;"];
             let value = seq!["rt::Parameter(", raw, " as u32)"];
@@ -141,10 +145,9 @@ fn field(
                 false => rest,
             };
             let write = seq!["self.", name, ".write(to)?;"];
-            let (field, code) =
-                plain(&ty, "Entries of the list.", write, String::new(), seq!["rt::message::List::received(list)?"]);
-            let ty_at_top = format!("rt::message::List<'a, messages::{entry}>");
-            (Field { ty_at_top, ..field }, Code { read: read_as("list", read), ..code })
+            let value = seq!["rt::message::List::received(", raw, ")?"];
+            let (field, code) = plain(&ty, "Entries of the list.", write, read, value);
+            (Field { ty_at_top: format!("rt::message::List<'a, messages::{entry}>"), ..field }, code)
         }
         _ => {
             let docs = match step {

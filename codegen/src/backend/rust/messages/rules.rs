@@ -65,10 +65,9 @@ impl Rules {
         let models = used.iter().zip(names).map(|((space, bits), name)| {
             let definition = device.parameter_space(space);
             let order = definition.map_or(&[][..], |definition| &definition.byte_order);
-            let order = order.iter().map(u8::to_string).collect::<Vec<_>>().join(", ");
             let values = [
                 ("code_bits", seq![*bits]),
-                ("order", seq!["&[", order, "]"]),
+                ("order", slice(order.iter().map(u8::to_string))),
                 ("lengths", slice(lengths(context, device, space))),
             ];
             let (name, docs) = (name.to_ascii_uppercase(), documentation(context, definition, space));
