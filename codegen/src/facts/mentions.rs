@@ -44,7 +44,7 @@ impl<'d> Mentions<'d> {
         for (position, group) in (0..).zip(&device.groups) {
             for (id, item) in group.items_at(position) {
                 mentions.add(item.name.as_str(), Mention::Item(id));
-                let text = item.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+                let text = Documentation::text_of(item.documentation.as_deref());
                 for table in quoted(text).filter(|name| tables.contains(name)) {
                     mentions.of_tables.entry(table).or_default().push(Mention::Item(id));
                 }

@@ -259,3 +259,10 @@ pub struct Documentation {
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub text_from: Option<Box<FactOrigin>>,
 }
+
+impl Documentation {
+    /// Returns the description of an element. Returns an empty text if the element has no documentation.
+    pub fn text_of(documentation: Option<&Documentation>) -> &str {
+        documentation.map_or("", |documentation| &documentation.text)
+    }
+}

@@ -1,6 +1,6 @@
 //! Origins of facts, and their precedence.
 
-use super::{CompactString, Item, SharedList};
+use super::{CompactString, Documentation, Item, SharedList};
 
 /// An attribute of an item or group. Several sources can state the same attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -97,7 +97,7 @@ impl Fact {
 
 /// Returns the description of an item, without citations.
 fn text(item: &Item) -> &str {
-    item.documentation.as_deref().map_or("", |documentation| &*documentation.text)
+    Documentation::text_of(item.documentation.as_deref())
 }
 
 /// The origin of a fact.

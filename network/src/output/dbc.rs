@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use lexibus_codegen::facts::physical::shown_unit;
 use lexibus_codegen::facts::types;
 use lexibus_codegen::ir::owner::Owner;
-use lexibus_codegen::ir::{Direction, Item, Scale, Type, Value};
+use lexibus_codegen::ir::{Direction, Documentation, Item, Scale, Type, Value};
 use lexibus_codegen::number;
 
 use super::dbc_names::{Name, Names, MASTER};
@@ -170,9 +170,9 @@ fn mapped_type(ty: Type, bits: u8) -> Type {
 
 fn comment(item: &Item, entry: &MappedObject) -> String {
     let address = number::object(entry.index, entry.sub_index);
-    match item.documentation.as_ref().map(|documentation| &*documentation.text) {
-        Some(text) if !text.is_empty() => format!("{address} {}: {text}", item.name),
-        _ => format!("{address} {}", item.name),
+    match Documentation::text_of(item.documentation.as_deref()) {
+        "" => format!("{address} {}", item.name),
+        text => format!("{address} {}: {text}", item.name),
     }
 }
 

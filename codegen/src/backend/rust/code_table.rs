@@ -10,7 +10,7 @@ use super::literal;
 use super::options::RustOptions;
 use crate::facts::words::bus_names;
 use crate::ir::stated::is_of_profile;
-use crate::ir::{CodeRow, CodeTable, Device, Value};
+use crate::ir::{CodeRow, CodeTable, Device, Documentation, Value};
 use crate::names::{self, Case};
 
 /// A code table, ready to be printed.
@@ -47,7 +47,7 @@ fn model(
     let manual = &context.manual;
     let documentation = table.documentation.as_deref();
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
-    let text = documentation.map_or("", |documentation| &*documentation.text);
+    let text = Documentation::text_of(documentation);
     if !text.is_empty() {
         docs.push(docs::sentence(&docs::escape(text)));
     }

@@ -5,7 +5,7 @@ use super::code::{seq, Data, Declaration, Doc};
 use super::context::Context;
 use super::docs;
 use super::links::DocModule;
-use crate::ir::{Composite, ItemRef};
+use crate::ir::{Composite, Documentation, ItemRef};
 
 pub(super) fn models<'c>(context: &'c Context<'_>) -> impl Iterator<Item = Declaration> + 'c {
     context.names.composites.iter().map(|named| model(context, named.composite, &named.name))
@@ -26,7 +26,7 @@ fn model(context: &Context<'_>, composite: &Composite, name: &str) -> Declaratio
     if !composite.unit.is_empty() {
         sentences.push(format!("Unit: {}.", docs::escape(&composite.unit)));
     }
-    let text = composite.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+    let text = Documentation::text_of(composite.documentation.as_deref());
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }

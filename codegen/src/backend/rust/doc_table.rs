@@ -57,7 +57,7 @@ pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentati
     if !is_same(name, rust) {
         parts.push(docs::sentence(&docs::escape(name)));
     }
-    let text = documentation.map_or("", |documentation| &*documentation.text);
+    let text = Documentation::text_of(documentation);
     parts.push(start(text));
     parts.retain(|part| !part.trim().is_empty());
     parts.join(" ")

@@ -15,7 +15,9 @@ use super::value_type::{self, native, native_bits};
 use crate::facts::machine::{fault_states, is_energized};
 use crate::facts::pattern;
 use crate::ir::stated::is_of_profile;
-use crate::ir::{CommandId, CommandRef, ItemRef, Pattern, Shape, StateMachine, StateRef, Transition, Type, TypeId};
+use crate::ir::{
+    CommandId, CommandRef, Documentation, ItemRef, Pattern, Shape, StateMachine, StateRef, Transition, Type, TypeId,
+};
 use crate::names::{self, Case};
 
 /// A state machine, ready to be printed.
@@ -258,7 +260,7 @@ impl Named<'_, '_> {
     /// Returns the lines of a table that lists all transitions, or no lines if there are no transitions.
     fn transitions(&self, machine: &StateMachine) -> Vec<String> {
         let row = |transition: &Transition| {
-            let text = transition.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+            let text = Documentation::text_of(transition.documentation.as_deref());
             [
                 transition.number.map(|number| number.to_string()).unwrap_or_default(),
                 transition.from.as_ref().map_or_else(|| "any state".to_owned(), |name| self.state(name)),
@@ -352,7 +354,7 @@ fn patterns(
         let (mask, value) = (hexadecimal(definition.mask), hexadecimal(definition.value));
         let plain = definition.name.replace('_', " ");
         let title = docs::escape(&plain);
-        let text = definition.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+        let text = Documentation::text_of(definition.documentation.as_deref());
         let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
         let original = definition.name.to_string();
         let meaning = doc_table::meaning(&definition.name, &name, definition.documentation.as_deref());

@@ -66,7 +66,9 @@ mod tests {
     use crate::backend::rust::scope::Scope;
     use crate::backend::rust::{code_table, print, RustOptions};
     use crate::diagnostics::Diagnostics;
-    use crate::ir::{Binding, Catalog, CompactString, Device, Group, Item, ObjectBuses, ObjectCode, Type};
+    use crate::ir::{
+        Binding, Catalog, CompactString, Device, Documentation, Group, Item, ObjectBuses, ObjectCode, Type,
+    };
     use crate::output::write_if_changed;
     use crate::resolve::{self, profiles, Changes, Profiles};
     use crate::selection::Selection;
@@ -81,7 +83,7 @@ mod tests {
 
     /// Returns the first phrase of an object's description and the index of the object: `the active mode of operation (0x6061)`.
     fn name(described: &profiles::Described) -> CompactString {
-        let text = described.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+        let text = Documentation::text_of(described.documentation.as_deref());
         let phrase = text.split([':', '.']).next().unwrap_or_default();
         format!("the {} ({})", phrase.to_lowercase(), crate::number::hex16(described.indices.0)).into()
     }

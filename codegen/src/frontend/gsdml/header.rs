@@ -65,7 +65,7 @@ impl Header {
     /// Adds the facts in the header to every device.
     pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
         resolver.documentation(&mut self.description);
-        let description = self.description.as_ref().map_or("", |documentation| &*documentation.text);
+        let description = Documentation::text_of(self.description.as_deref());
         let version = self.version.as_ref().map_or_else(CompactString::default, |(text, _)| text.clone());
         let family = self.family.0.len() + self.family.1.len();
         let weight = self.vendor_name.len() + description.len() + family + version.len();

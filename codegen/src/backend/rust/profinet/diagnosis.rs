@@ -10,7 +10,7 @@ use super::literal;
 use super::values::Values;
 use super::RustOptions;
 use crate::backend::rust::code::{call, slice, Doc};
-use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis};
+use crate::ir::{Catalog, CodeRow, Documentation, Type, UnitDiagnosis};
 use crate::names::{self, Case, NameRequest};
 use crate::text::count_of;
 
@@ -69,7 +69,7 @@ fn error(key: Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) ->
 }
 
 fn texts(row: &CodeRow) -> (String, String) {
-    let help = row.documentation.as_ref().map_or("", |documentation| &*documentation.text);
+    let help = Documentation::text_of(row.documentation.as_deref());
     (literal::string(&row.name), literal::string(help))
 }
 
