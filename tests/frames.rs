@@ -29,7 +29,9 @@ type Device = ModbusClient<Context>;
 
 /// Runs `exchange` with a node that expects `request` and responds with `reply`. Returns the result.
 fn exchanged<T>(
-    (node, request, reply): (u8, &[u8], &[u8]),
+    node: u8,
+    request: &[u8],
+    reply: &[u8],
     exchange: impl for<'d> FnOnce(&'d mut Device) -> Pin<Box<dyn Future<Output = T> + 'd>>,
 ) -> T {
     let runtime = tokio::runtime::Builder::new_current_thread().build().expect("a runtime");
@@ -55,7 +57,7 @@ fn check(frame: &[u8]) -> [u8; 2] {
 
 /// Checks the request that a write with function 16 sends to node 1. The manual prints the address, the 32-bit value
 /// and the CRC.
-fn written<V, A, L>(line: u32, item: Item<V, A, L>, value: V::Native, (address, raw, crc): (u16, i32, [u8; 2]))
+fn written<V, A, L>(line: u32, item: Item<V, A, L>, value: V::Native, address: u16, raw: i32, crc: [u8; 2])
 where
     V: Fixed + 'static,
     A: Writable + 'static,
@@ -66,7 +68,7 @@ where
     let request = [head.as_slice(), &[4], &raw.to_be_bytes(), &crc].concat();
     assert_eq!(check(&request[..11]), crc, "L{line}");
     let reply = [head.as_slice(), &check(&head)].concat();
-    exchanged((1, &request, &reply), |device| {
+    exchanged(1, &request, &reply, |device| {
         Box::pin(async move { item.at(device).write_async(value).await.expect("written") })
     });
 }
@@ -79,27 +81,27 @@ fn modbus_writes_of_two_registers() {
     let home = enabled.in_homing().with_homing(true).drive_command();
     let start = enabled.in_positioner().with_start_positioning(true).drive_command();
     let save = off.in_save_and_load().with_save(true).drive_command();
-    written(1407, feed_constant::FEED_CONSTANT, 60, (0x8002, 60, [0x13, 0xA1]));
-    written(1410, objects::PROFILE_ACCELERATION, 100, (0x800A, 100, [0x13, 0xFD]));
-    written(1413, objects::PROFILE_DECELERATION, 100, (0x800B, 100, [0xD2, 0x31]));
-    written(1416, objects::PROFILE_VELOCITY, 1000, (0x800C, 1000, [0x92, 0x82]));
-    written(1419, objects::MOTION_PROFILE_TYPE, MotionProfile::Trapezoidal, (0x801B, 0, [0xD2, 0xD6]));
-    written(1422, objects::HOMING_METHOD, HomingMethod::MarkerBackwards, (0x8012, 33, [0xD2, 0xA4]));
-    written(1425, objects::HOME_OFFSET, 0, (0x8013, 0, [0xD3, 0x70]));
-    written(1428, homing_speeds::HOMING_SLOW_SPEED, 10, (0x8015, 10, [0xD3, 0x5D]));
-    written(1431, objects::HOMING_ACCELERATION, 100, (0x8016, 100, [0x12, 0xA4]));
-    written(1443, objects::CONTROL_WORD, off.with_alarm_reset(true), (0x8000, 0x08, [0x93, 0xAF]));
-    written(1447, objects::MODES_OF_OPERATION, Mode::Homing, (0x8001, 6, [0xD3, 0xA7]));
-    written(1451, objects::CONTROL_WORD, enabled, (0x8000, 0x03, [0xD2, 0x68]));
-    written(1455, objects::CONTROL_WORD, home, (0x8000, 0x43, [0xD3, 0x98]));
-    written(1457, objects::CONTROL_WORD, off, (0x8000, 0, [0x92, 0x69]));
-    written(1461, objects::MODES_OF_OPERATION, Mode::Positioner, (0x8001, 1, [0x92, 0x65]));
-    written(1464, objects::TARGET_POSITION, 6000, (0x8009, 6000, [0x5C, 0x17]));
-    written(1466, objects::CONTROL_WORD, enabled, (0x8000, 0x03, [0xD2, 0x68]));
-    written(1471, objects::CONTROL_WORD, start, (0x8000, 0x23, [0xD3, 0xB0]));
+    written(1407, feed_constant::FEED_CONSTANT, 60, 0x8002, 60, [0x13, 0xA1]);
+    written(1410, objects::PROFILE_ACCELERATION, 100, 0x800A, 100, [0x13, 0xFD]);
+    written(1413, objects::PROFILE_DECELERATION, 100, 0x800B, 100, [0xD2, 0x31]);
+    written(1416, objects::PROFILE_VELOCITY, 1000, 0x800C, 1000, [0x92, 0x82]);
+    written(1419, objects::MOTION_PROFILE_TYPE, MotionProfile::Trapezoidal, 0x801B, 0, [0xD2, 0xD6]);
+    written(1422, objects::HOMING_METHOD, HomingMethod::MarkerBackwards, 0x8012, 33, [0xD2, 0xA4]);
+    written(1425, objects::HOME_OFFSET, 0, 0x8013, 0, [0xD3, 0x70]);
+    written(1428, homing_speeds::HOMING_SLOW_SPEED, 10, 0x8015, 10, [0xD3, 0x5D]);
+    written(1431, objects::HOMING_ACCELERATION, 100, 0x8016, 100, [0x12, 0xA4]);
+    written(1443, objects::CONTROL_WORD, off.with_alarm_reset(true), 0x8000, 0x08, [0x93, 0xAF]);
+    written(1447, objects::MODES_OF_OPERATION, Mode::Homing, 0x8001, 6, [0xD3, 0xA7]);
+    written(1451, objects::CONTROL_WORD, enabled, 0x8000, 0x03, [0xD2, 0x68]);
+    written(1455, objects::CONTROL_WORD, home, 0x8000, 0x43, [0xD3, 0x98]);
+    written(1457, objects::CONTROL_WORD, off, 0x8000, 0, [0x92, 0x69]);
+    written(1461, objects::MODES_OF_OPERATION, Mode::Positioner, 0x8001, 1, [0x92, 0x65]);
+    written(1464, objects::TARGET_POSITION, 6000, 0x8009, 6000, [0x5C, 0x17]);
+    written(1466, objects::CONTROL_WORD, enabled, 0x8000, 0x03, [0xD2, 0x68]);
+    written(1471, objects::CONTROL_WORD, start, 0x8000, 0x23, [0xD3, 0xB0]);
     // The value is sign-extended to both registers.
-    written(1492, objects::MODES_OF_OPERATION, Mode::SaveAndLoad, (0x8001, -50, [0x93, 0xE5]));
-    written(1495, objects::CONTROL_WORD, save, (0x8000, 0x20, [0x93, 0xB1]));
+    written(1492, objects::MODES_OF_OPERATION, Mode::SaveAndLoad, 0x8001, -50, [0x93, 0xE5]);
+    written(1495, objects::CONTROL_WORD, save, 0x8000, 0x20, [0x93, 0xB1]);
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn modbus_of_registers_with_an_address_each() {
     let request = [0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D];
     let reply = [[5, 3, 8].as_slice(), &[0, 0, 0, 0x23, 0xFF, 0xFF, 0xFF, 0xFE]].concat();
     let reply = [reply.as_slice(), &check(&reply)].concat();
-    let values = exchanged((5, &request, &reply), |device| {
+    let values = exchanged(5, &request, &reply, |device| {
         let both = (objects::CONTROL_WORD, objects::MODES_OF_OPERATION);
         Box::pin(async move { device.read_block_async(both).await.expect("read") })
     });
@@ -117,7 +119,7 @@ fn modbus_of_registers_with_an_address_each() {
     let request = [0x05, 0x03, 0x80, 0x06, 0x00, 0x02];
     let request = [request.as_slice(), &check(&request)].concat();
     let reply = [0x05, 0x03, 0x04, 0x11, 0x22, 0x33, 0x44, 0x0E, 0x06];
-    let value = exchanged((5, &request, &reply), |device| {
+    let value = exchanged(5, &request, &reply, |device| {
         Box::pin(async move { objects::POSITION_ACTUAL_VALUE.at(device).read_async().await.expect("read") })
     });
     assert_eq!(value, 0x1122_3344);
@@ -129,9 +131,8 @@ fn modbus_exceptions() {
     // exception.
     let reply = [[0x05, 0x86, 0x02].as_slice(), &check(&[0x05, 0x86, 0x02])].concat();
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
-    let refused = exchanged((5, &request, &reply), |device| {
-        Box::pin(async move { objects::D3.at(device).write_async(10).await })
-    });
+    let refused =
+        exchanged(5, &request, &reply, |device| Box::pin(async move { objects::D3.at(device).write_async(10).await }));
     let Err(Error::Client(ModbusError::Exception(code))) = refused.map_err(Error::from) else {
         panic!("another error")
     };
@@ -143,29 +144,29 @@ fn modbus_of_node_5() {
     // Section "Codice 0x10: scrittura di un registro".
     let request = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0x04, 0x00, 0x00, 0x03, 0xE8, 0x47, 0x8D];
     let reply = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0xB9, 0x8E];
-    exchanged((5, &request, &reply), |device| {
+    exchanged(5, &request, &reply, |device| {
         Box::pin(async move { objects::TARGET_POSITION.at(device).write_async(1000).await.expect("written") })
     });
     // Section "Secondo metodo di salvataggio con accesso a 32 bit".
     let request = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0x04, 0x00, 0x00, 0x00, 0x11, 0x94, 0x8B];
     let reply = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0xEC, 0xEC];
-    exchanged((5, &request, &reply), |device| {
+    exchanged(5, &request, &reply, |device| {
         Box::pin(async move { objects::SAVE_TO_FLASH_32.at(device).write_async(0x11).await.expect("written") })
     });
     // Sections "Codice 0x06: scrittura di un parametro" and "Secondo metodo di salvataggio con accesso a 16 bit". A
     // response to function 6 repeats the request.
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
-    exchanged((5, &request, &request), |device| {
+    exchanged(5, &request, &request, |device| {
         Box::pin(async move { objects::D3.at(device).write_async(10).await.expect("written") })
     });
     let request = [0x05, 0x06, 0x38, 0x02, 0x00, 0x11, 0xE4, 0xE2];
-    exchanged((5, &request, &request), |device| {
+    exchanged(5, &request, &request, |device| {
         Box::pin(async move { objects::SAVE_TO_FLASH.at(device).write_async(0x11).await.expect("written") })
     });
     // Section "Codice 0x03: lettura dei parametri e dei registri": three registers in one request.
     let request = [0x05, 0x03, 0x00, 0x01, 0x00, 0x03, 0x55, 0x8F];
     let reply = [0x05, 0x03, 0x06, 0x00, 0x14, 0x00, 0x32, 0x00, 0x32, 0x03, 0xAC];
-    let values = exchanged((5, &request, &reply), |device| {
+    let values = exchanged(5, &request, &reply, |device| {
         let all = (objects::D1, objects::D2, objects::D3);
         Box::pin(async move { device.read_block_async(all).await.expect("read") })
     });

@@ -108,7 +108,7 @@ fn addresses(own: &Register) -> impl Iterator<Item = (RegisterTable, u16)> {
 }
 
 /// Returns whether a request may include the address.
-fn is_described(items: &[Register], (table, address): (RegisterTable, u16)) -> bool {
+fn is_described(items: &[Register], table: RegisterTable, address: u16) -> bool {
     let step = if table == RegisterTable::Input { 2 } else { 1 };
     let spans = LIMITS.of(table).readable.iter().filter(|span| span.words_per_address == step);
     spans.into_iter().any(|span| (span.first..=span.last).contains(&address))
@@ -120,7 +120,7 @@ fn fewest(items: &[Register], table: RegisterTable) -> usize {
     let own: Vec<Register> = items.iter().copied().filter(|item| item.table == table).collect();
     let all = (1_u32 << own.len()) - 1;
     let mut reached = HashMap::from([(0_u32, 0_usize)]);
-    let windows: Vec<u32> = (0..24).map(|first| window(&own, items, (table, first))).collect();
+    let windows: Vec<u32> = (0..24).map(|first| window(&own, items, table, first)).collect();
     for requests in 1..=own.len() {
         let now: Vec<u32> = reached.keys().copied().collect();
         for set in now.iter().flat_map(|set| windows.iter().map(move |window| set | window)) {
@@ -131,10 +131,10 @@ fn fewest(items: &[Register], table: RegisterTable) -> usize {
 }
 
 /// Returns the set of items that the longest allowed request from an address reads.
-fn window(own: &[Register], items: &[Register], (table, first): (RegisterTable, u16)) -> u32 {
+fn window(own: &[Register], items: &[Register], table: RegisterTable, first: u16) -> u32 {
     let step = if table == RegisterTable::Input { 2 } else { 1 };
     let longest = first + LIMITS.max_read(table) / step;
-    let end = (first..longest).find(|&address| !is_described(items, (table, address))).unwrap_or(longest);
+    let end = (first..longest).find(|&address| !is_described(items, table, address)).unwrap_or(longest);
     let is_within = |item: &Register| item.address >= first && item.address + item.addresses() <= end;
     own.iter().enumerate().filter(|(_, item)| is_within(item)).fold(0, |set, (at, _)| set | 1 << at)
 }
@@ -163,7 +163,7 @@ proptest! {
 
         for request in &device.requests {
             prop_assert!(request.count <= LIMITS.max_read(request.table), "{:?}", request);
-            prop_assert!(addresses(request).all(|own| is_described(&registers, own)), "{:?}", request);
+            prop_assert!(addresses(request).all(|(table, address)| is_described(&registers, table, address)), "{:?}", request);
         }
         let tables = [RegisterTable::Holding, RegisterTable::Input, RegisterTable::Coil, RegisterTable::DiscreteInput];
         let fewest: usize = tables.into_iter().map(|table| fewest(&registers, table)).sum();

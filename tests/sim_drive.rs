@@ -92,7 +92,8 @@ fn write(device: &mut Device, index: u16, value: i64) {
     write_sub(device, (index, 0), value);
 }
 
-fn write_sub(device: &mut Device, (index, sub_index): (u16, u8), value: i64) {
+fn write_sub(device: &mut Device, object: (u16, u8), value: i64) {
+    let (index, sub_index) = object;
     let object = Object::new(index, sub_index);
     let length = device.bytes(object).unwrap().len();
     device.client::<CanOpen>().write(object, &value.to_le_bytes()[..length]).unwrap();

@@ -241,7 +241,8 @@ impl Description {
 
     /// If the object belongs to an axis after the first one, returns the number of this axis and the corresponding
     /// parameter of the first axis. Otherwise, returns `None`.
-    fn of_other_axis(&self, (index, sub_index): (u16, u8)) -> Option<(u8, Parameter<'_>)> {
+    fn of_other_axis(&self, object: (u16, u8)) -> Option<(u8, Parameter<'_>)> {
+        let (index, sub_index) = object;
         let axes = self.device().axes.as_ref().filter(|_| self.network == Network::CanOpen)?;
         let first = |step: u16, axis: u8| index.checked_sub(step.checked_mul(axis.into())?);
         let objects = (1..axes.axes).flat_map(|axis| axes.rules.iter().map(move |rule| (axis, rule)));

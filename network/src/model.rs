@@ -202,7 +202,8 @@ impl NetworkNode {
 }
 
 /// Returns the name of an object's entry. If the object has several entries, the name of the object and `separator` precede it.
-pub(crate) fn entry_name(device: &Device, (index, sub_index): (u16, u8), separator: &str) -> String {
+pub(crate) fn entry_name(device: &Device, object: (u16, u8), separator: &str) -> String {
+    let (index, sub_index) = object;
     let entry = device.entry(index, sub_index).map(|item| item.name.as_str()).unwrap_or_default();
     match device.object(index).filter(|group| group.items.len() > 1) {
         Some(group) => format!("{}{separator}{entry}", group.name),

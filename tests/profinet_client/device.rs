@@ -46,7 +46,7 @@ impl Drive {
                 _ => {
                     let size = Format(values[0]).size().expect("a known format");
                     let (own, rest) = values[2..].split_at(size * usize::from(values[1]));
-                    let answer = self.change(axis, pnu, subindices, (Format(values[0]), own));
+                    let answer = self.change(axis, pnu, subindices, Format(values[0]), own);
                     values = &rest[own.len() % 2..];
                     answer
                 }
@@ -77,7 +77,8 @@ impl Drive {
         axis: u8,
         pnu: u16,
         subindices: std::ops::Range<u16>,
-        (format, bytes): (Format, &[u8]),
+        format: Format,
+        bytes: &[u8],
     ) -> Result<Vec<u8>, (u8, u8)> {
         if pnu == 100 && bytes > &3000_u16.to_be_bytes()[..] {
             return Err((2, 0));

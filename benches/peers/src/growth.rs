@@ -15,9 +15,9 @@ use crate::read::check;
 const SIZES: [usize; 4] = [1, 10, 100, 1_000];
 
 /// A kind of input that is measured in several sizes: its title, its file name, and the function that creates it.
-type Way = (&'static str, &'static str, fn(usize) -> Vec<u8>);
+type Series = (&'static str, &'static str, fn(usize) -> Vec<u8>);
 
-const WAYS: [Way; 5] = [
+const SERIES: [Series; 5] = [
     ("EDS, records", "bench.eds", |size| growing(InputFormat::Eds, size)),
     ("ESI, devices", "bench.xml", |size| growing(InputFormat::Esi, size)),
     ("ESI, objects of one device", "bench.xml", growing_device),
@@ -37,10 +37,11 @@ struct Cost {
 
 /// Measures each growing input. Returns the results as JSON; if `print` is set, also prints a table for each input.
 pub fn report(print: bool) -> Vec<Value> {
-    WAYS.iter().map(|way| one(way, print)).collect()
+    SERIES.iter().map(|series| one(series, print)).collect()
 }
 
-fn one(&(title, name, make): &Way, print: bool) -> Value {
+fn one(series: &Series, print: bool) -> Value {
+    let &(title, name, make) = series;
     let inputs: Vec<_> = SIZES.iter().map(|&size| make(size)).collect();
     let costs = costs(name, &inputs);
     if print {

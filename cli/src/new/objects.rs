@@ -240,7 +240,8 @@ impl Support<'_> {
         layout::call(At(4, ""), "set_state", &["&mut device", &state], "?;")
     }
 
-    fn transition(&self, (from, command, to): &(String, String, String)) -> String {
+    fn transition(&self, transition: &(String, String, String)) -> String {
+        let (from, command, to) = transition;
         let [from, command, to] = [format!("State::{from}"), format!("Command::{command}"), format!("State::{to}")];
         layout::call(At(4, ""), "", &[&from, &command, &to], ",")
     }

@@ -146,7 +146,7 @@ impl<'a> Folder<'a> {
         for (at, note) in notes.filter_map(|(at, note)| Some((at, note?))) {
             let device = &catalog.devices[at];
             self.open(self.addresses.device(device, &(self.name.clone(), at)));
-            self.device((at, note), device, catalog, languages_of_modules, common);
+            self.device(at, note, device, catalog, languages_of_modules, common);
         }
     }
 
@@ -185,7 +185,8 @@ impl<'a> Folder<'a> {
     /// Writes the pages of a device. `at` is its position in the catalog, and `note` is the note that lists of devices show.
     fn device(
         &mut self,
-        (at, note): (usize, String),
+        at: usize,
+        note: String,
         device: &Device,
         catalog: &Catalog,
         languages_of_modules: &BTreeSet<&str>,

@@ -178,7 +178,8 @@ fn sections<'g>(groups: impl Iterator<Item = &'g Group>, items: Items<'_>, ancho
 fn model(
     number: u32,
     anchor: String,
-    (name, names): (&CompactString, &Texts),
+    name: &CompactString,
+    names: &Texts,
     documentation: Option<&Documentation>,
     identity: &Identity,
 ) -> ModuleModel {
@@ -207,14 +208,14 @@ fn module(module: &Module, anchor: String, parts: Vec<(String, String)>, items: 
         frames: process::frames(&module.process_data, &module.types, about),
         sections: sections(module.fixed_objects.iter().chain(&module.groups), items, &anchor),
         parts,
-        ..model(module.number, anchor, (name, names), documentation.as_deref(), identity)
+        ..model(module.number, anchor, name, names, documentation.as_deref(), identity)
     }
 }
 
 fn submodule(submodule: &Submodule, anchor: String, items: Items<'_>) -> ModuleModel {
     let Submodule { name, names, documentation, identity, .. } = submodule;
     let sections = sections(submodule.records.iter(), items, &anchor);
-    let mut model = model(submodule.ident, anchor, (name, names), documentation.as_deref(), identity);
+    let mut model = model(submodule.ident, anchor, name, names, documentation.as_deref(), identity);
     model.facts.extend((submodule.api != 0).then(|| format!("API {}.", hex16(submodule.api))));
     let safety = "With parameters of functional safety (PROFIsafe).";
     model.facts.extend(submodule.f_parameters.is_some().then(|| safety.to_owned()));

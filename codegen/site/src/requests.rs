@@ -22,8 +22,8 @@ pub(super) type Request = (&'static str, String);
 
 /// Returns whether a request reads or writes a PROFINET record. Such a request contains neither a node-ID nor a Modbus
 /// unit identifier.
-pub(super) fn is_of_record((title, _): &Request) -> bool {
-    record::TITLES.contains(title)
+pub(super) fn is_of_record(request: &Request) -> bool {
+    record::TITLES.contains(&request.0)
 }
 
 /// Returns the requests of an item. The node-ID or the Modbus unit identifier is 1. Write requests contain the default
@@ -55,7 +55,7 @@ pub(super) fn requests(item: &Item, types: &[TypeDef], tables: &[ModbusTable], r
                 modbus(register, &functions, written.as_ref(), &mut all);
             }
             Binding::Record { index, bit_offset, bits } => {
-                all.extend(record.requests(item, types, (*index, *bit_offset, *bits)));
+                all.extend(record.requests(item, types, *index, *bit_offset, *bits));
             }
             _ => {}
         }

@@ -175,8 +175,8 @@ fn meanings(one: &Shape, other: &Shape) -> Option<String> {
     (!only.is_empty()).then(|| format!("only one of them has names for {}", numbered(what, &only)))
 }
 
-fn range(&(first, last): &(i128, i128)) -> String {
-    number::range(first, last, |number| number.to_string())
+fn range(values: &(i128, i128)) -> String {
+    number::range(values.0, values.1, |number| number.to_string())
 }
 
 /// Returns the ranges of values, or the single bits, that have a name.

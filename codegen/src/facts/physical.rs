@@ -51,7 +51,7 @@ impl<'q> Physical<'q> {
         unit: &dyn Fn(&str) -> String,
     ) -> String {
         let raw = span((limits.0.map(raw), limits.1.map(raw)));
-        match self.numbers(limits) {
+        match self.numbers(limits.0, limits.1) {
             Some(numbers) => format!("{} (raw {raw})", self.with_unit(&numbers, unit)),
             None => format!("raw {raw}"),
         }
@@ -89,12 +89,13 @@ impl<'q> Physical<'q> {
 
     /// Formats a range for a table that has a column for units: `-20.0 … 200.0`, or `raw -200 … 2000`.
     pub fn range_cell(&self, limits: (Option<&Value>, Option<&Value>), raw: &dyn Fn(&Value) -> String) -> String {
-        self.numbers(limits).unwrap_or_else(|| format!("raw {}", span((limits.0.map(raw), limits.1.map(raw)))))
+        self.numbers(limits.0, limits.1)
+            .unwrap_or_else(|| format!("raw {}", span((limits.0.map(raw), limits.1.map(raw)))))
     }
 
     /// Returns the range of the physical values: `-20.0 … 200.0`. Returns `None` if a physical value is unknown, or if the
     /// conversion has a pole in the range.
-    fn numbers(&self, (low, high): (Option<&Value>, Option<&Value>)) -> Option<String> {
+    fn numbers(&self, low: Option<&Value>, high: Option<&Value>) -> Option<String> {
         match (low.map(|low| self.number(low)), high.map(|high| self.number(high))) {
             (Some(None), _) | (_, Some(None)) => None,
             _ if self.has_pole_in(low, high) => None,

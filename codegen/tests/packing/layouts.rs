@@ -160,7 +160,7 @@ fn of_submodule(submodule: &Submodule, types: &[TypeDef]) -> Vec<Layout> {
 fn io_data(data: &IoData, types: &[TypeDef]) -> Layout {
     let length = data.image.length;
     let entries = data.image.fields.iter().filter(|entry| entry.kind != PdoEntryKind::Padding);
-    let fields = entries.filter_map(|entry| big_endian(base(types, entry.ty), (entry.bit_offset, entry.bits), length));
+    let fields = entries.filter_map(|entry| big_endian(base(types, entry.ty), entry.bit_offset, entry.bits, length));
     Layout { is_record: false, number: None, bits: 8 * length, fields: fields.collect(), default: Vec::new() }
 }
 
@@ -177,7 +177,9 @@ fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
             Binding::Record { bit_offset, bits, .. } => Some((*bit_offset, *bits)),
             _ => None,
         });
-        let Some(pieces) = place.and_then(|place| big_endian(base, place, record.length)) else { continue };
+        let Some(pieces) = place.and_then(|(offset, bits)| big_endian(base, offset, bits, record.length)) else {
+            continue;
+        };
         let value = item.default.as_ref().and_then(|value| bits(value, base));
         put(&mut default, &pieces, &value.unwrap_or_default());
         if item.access != Access::Constant {
@@ -213,7 +215,7 @@ fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
 }
 
 /// Returns the pieces of a PROFINET field. Returns `None` if the field is outside the data or has no Rust equivalent.
-fn big_endian(base: Type, (offset, bits): (u32, u32), length: u32) -> Option<Vec<Piece>> {
+fn big_endian(base: Type, offset: u32, bits: u32, length: u32) -> Option<Vec<Piece>> {
     let end = u64::from(offset) + u64::from(bits);
     if bits == 0 || end > 8 * u64::from(length) {
         return None;

@@ -34,7 +34,7 @@ pub(super) fn check(network: &Network, diagnostics: &mut Diagnostics) {
         senders.entry(can_id(sender.cob_id)).or_insert(sender);
     }
     let mut known = HashSet::new();
-    for sender in placed.into_iter().chain(network.sent().into_iter().map(of_pdo)) {
+    for sender in placed.into_iter().chain(network.sent().into_iter().map(|(node, pdo)| of_pdo(node, pdo))) {
         known.insert(sender.cob_id & CAN_ID);
         if let Some(fault) = restricted::fault(sender.cob_id, &sender.name, sender.span) {
             diagnostics.push(fault);
@@ -61,7 +61,7 @@ fn conflict(sender: &Sender, other: &Sender) -> Diagnostic {
     found.help(if sender.is_pdo { "choose another `cob_id`, or use `auto`" } else { "choose another COB-ID" })
 }
 
-fn of_pdo((node, pdo): (&NetworkNode, &NetworkPdo)) -> Sender {
+fn of_pdo(node: &NetworkNode, pdo: &NetworkPdo) -> Sender {
     let name = node.pdo_title(pdo);
     let name = if pdo.direction == Direction::Transmit { name } else { name + " (sent by the master)" };
     Sender { cob_id: pdo.cob_id, name, span: place(node, pdo), is_pdo: true }

@@ -53,7 +53,8 @@ impl<'d> Layout<'d> {
         self.placed.push(Placed { slot, index, sync_manager, bit_offset, bits, content });
     }
 
-    fn add_own(&mut self, (pdo, sync_manager): Assigned<'d>) {
+    fn add_own(&mut self, assigned: Assigned<'d>) {
+        let (pdo, sync_manager) = assigned;
         self.add(None, pdo.mapping_index, sync_manager, pdo.bits(), PlacedContent::Pdo(pdo, Offsets::default()));
     }
 }
@@ -70,7 +71,7 @@ pub(super) fn place<'d>(device: &'d Device, assigned: &[Assigned<'d>], plugged: 
         let own = assigned.iter().filter(|(_, number)| *number == manager.number);
         own.for_each(|assigned| layout.add_own(*assigned));
         for group in groups(device) {
-            add_group(&mut layout, device, plugged, (manager.number, direction), group);
+            add_group(&mut layout, device, plugged, manager.number, direction, group);
         }
     }
     layout.placed.retain(|placed| placed.bits > 0);
@@ -95,7 +96,8 @@ fn add_group<'d>(
     layout: &mut Layout<'d>,
     device: &'d Device,
     plugged: &[Plugged<'d>],
-    (manager, direction): (u8, Direction),
+    manager: u8,
+    direction: Direction,
     group: Option<usize>,
 ) {
     let groups = pdo_groups(device);

@@ -113,7 +113,8 @@ fn configuration(object: (u16, u8), data: Vec<u8>) -> StartupCommand {
     command(CONFIGURATION, object, data)
 }
 
-fn command(transition: &'static str, (index, sub_index): (u16, u8), data: Vec<u8>) -> StartupCommand {
+fn command(transition: &'static str, object: (u16, u8), data: Vec<u8>) -> StartupCommand {
+    let (index, sub_index) = object;
     StartupCommand { transition, index, sub_index, complete_access: false, data }
 }
 

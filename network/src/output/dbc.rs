@@ -26,12 +26,12 @@ pub fn dbc(network: &Network) -> Vec<u8> {
     for (node, pdo) in network.pdos(Direction::Transmit) {
         let receivers = network.receivers(pdo.cob_id).map(|node| nodes.of(node).to_owned());
         let master = network.master.as_ref().filter(|master| master.exchanges_pdos).map(|_| MASTER.to_owned());
-        message(&mut out, &mut names, (node, pdo), nodes.of(node), receivers.chain(master).collect());
+        message(&mut out, &mut names, node, pdo, nodes.of(node), receivers.chain(master).collect());
     }
     for (node, pdo) in sent_by_others(network) {
         let receivers = network.receivers(pdo.cob_id).map(|node| nodes.of(node).to_owned()).collect();
         let sender = if network.is_sent_by_master(pdo.can_id()) { MASTER } else { NOBODY };
-        message(&mut out, &mut names, (node, pdo), sender, receivers);
+        message(&mut out, &mut names, node, pdo, sender, receivers);
     }
     encoded(&out.text(&nodes))
 }
@@ -96,7 +96,8 @@ impl Dbc {
 fn message(
     out: &mut Dbc,
     names: &mut Names,
-    (node, pdo): (&NetworkNode, &NetworkPdo),
+    node: &NetworkNode,
+    pdo: &NetworkPdo,
     sender: &str,
     receivers: Vec<String>,
 ) {

@@ -11,7 +11,8 @@ pub(super) const U32: Type = Type::Unsigned(32);
 pub(super) type Fields<'n> = (&'n str, Type, Access);
 
 /// Creates an item without a value.
-pub(super) fn item(index: u16, sub_index: u8, (name, ty, access): Fields<'_>) -> Item {
+pub(super) fn item(index: u16, sub_index: u8, fields: Fields<'_>) -> Item {
+    let (name, ty, access) = fields;
     let mut item = Item::new(Binding::canopen(index, sub_index));
     item.name = name.into();
     item.ty = ty;

@@ -36,7 +36,8 @@ const COMMAND: &str = "
 /// Returns a start-up command.
 const fn command(
     transition: ::lexibus::ethercat::Transition,
-    (index, sub_index): (u16, u8),
+    index: u16,
+    sub_index: u8,
     complete_access: bool,
     bytes: &'static [u8],
 ) -> ::lexibus::ethercat::StartupCommand {
@@ -148,7 +149,7 @@ fn command(command: &StartupCommand) -> String {
     let StartupCommand { transition, index, sub_index, complete_access, data } = command;
     let bytes: Vec<String> = data.iter().map(|byte| hex8(*byte)).collect();
     format!(
-        "super::command(::lexibus::ethercat::Transition::{transition}, ({}, {sub_index}), {complete_access}, &[{}])",
+        "super::command(::lexibus::ethercat::Transition::{transition}, {}, {sub_index}, {complete_access}, &[{}])",
         hex16(*index),
         bytes.join(", ")
     )

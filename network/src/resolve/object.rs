@@ -28,7 +28,8 @@ pub(crate) fn find<'d>(
 }
 
 /// Formats the address of an object: `0x6040`, `0x60C2:1`. Sub-index 0 is left out.
-pub(crate) fn address((index, sub_index): (u16, u8)) -> String {
+pub(crate) fn address(object: (u16, u8)) -> String {
+    let (index, sub_index) = object;
     match sub_index {
         0 => hex16(index),
         sub_index => written_object(index, sub_index),

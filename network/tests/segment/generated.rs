@@ -3,7 +3,8 @@
 /// Returns a start-up command.
 const fn command(
     transition: ::lexibus::ethercat::Transition,
-    (index, sub_index): (u16, u8),
+    index: u16,
+    sub_index: u8,
     complete_access: bool,
     bytes: &'static [u8],
 ) -> ::lexibus::ethercat::StartupCommand {
@@ -48,19 +49,19 @@ pub mod terminals {
     pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = None;
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
-        super::command(::lexibus::ethercat::Transition::PS, (0xF030, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0xF030, 1), false, &[0x01, 0x20, 0x00, 0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0xF030, 2), false, &[0x00, 0x00, 0x00, 0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0xF030, 3), false, &[0x01, 0x30, 0x00, 0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0xF030, 0), false, &[0x03]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x8020, 1), false, &[0x02]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 1), false, &[0x00, 0x16]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 0), false, &[0x01]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 1), false, &[0xFF, 0x1A]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 2), false, &[0x02, 0x1A]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x02]),
+        super::command(::lexibus::ethercat::Transition::PS, 0xF030, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0xF030, 1, false, &[0x01, 0x20, 0x00, 0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0xF030, 2, false, &[0x00, 0x00, 0x00, 0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0xF030, 3, false, &[0x01, 0x30, 0x00, 0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0xF030, 0, false, &[0x03]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x8020, 1, false, &[0x02]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 1, false, &[0x00, 0x16]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 0, false, &[0x01]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 1, false, &[0xFF, 0x1A]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 2, false, &[0x02, 0x1A]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x02]),
     ];
 }
 
@@ -96,18 +97,18 @@ pub mod axis_1 {
     pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = Some(::lexibus::ethercat::ClockSettings { assign_activate: 0x00000300, sync0: ::lexibus::ethercat::ClockSignal { cycle_time: 1000000, shift_time: 250000, relative_to_inputs: false }, sync1: ::lexibus::ethercat::ClockSignal { cycle_time: 0, shift_time: 0, relative_to_inputs: false } });
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
-        super::command(::lexibus::ethercat::Transition::PS, (0x6060, 0), false, &[0x08]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1600, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1600, 1), false, &[0x10, 0x00, 0x40, 0x60]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1600, 2), false, &[0x20, 0x00, 0x7A, 0x60]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1600, 0), false, &[0x02]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 1), false, &[0x00, 0x16]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 0), false, &[0x01]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 1), false, &[0x00, 0x1A]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 2), false, &[0x01, 0x1A]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x02]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x6060, 0, false, &[0x08]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1600, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1600, 1, false, &[0x10, 0x00, 0x40, 0x60]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1600, 2, false, &[0x20, 0x00, 0x7A, 0x60]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1600, 0, false, &[0x02]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 1, false, &[0x00, 0x16]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 0, false, &[0x01]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 1, false, &[0x00, 0x1A]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 2, false, &[0x01, 0x1A]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x02]),
     ];
 }
 
@@ -142,10 +143,10 @@ pub mod command_2 {
     pub const CLOCK: Option<::lexibus::ethercat::ClockSettings> = Some(::lexibus::ethercat::ClockSettings { assign_activate: 0x00000300, sync0: ::lexibus::ethercat::ClockSignal { cycle_time: 1000000, shift_time: 250000, relative_to_inputs: false }, sync1: ::lexibus::ethercat::ClockSignal { cycle_time: 0, shift_time: 0, relative_to_inputs: false } });
     /// SDO downloads in their order, each with its state transition.
     pub const STARTUP: &[::lexibus::ethercat::StartupCommand] = &[
-        super::command(::lexibus::ethercat::Transition::PS, (0x6060, 0), false, &[0x08]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C12, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x00]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 1), false, &[0x01, 0x1A]),
-        super::command(::lexibus::ethercat::Transition::PS, (0x1C13, 0), false, &[0x01]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x6060, 0, false, &[0x08]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C12, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x00]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 1, false, &[0x01, 0x1A]),
+        super::command(::lexibus::ethercat::Transition::PS, 0x1C13, 0, false, &[0x01]),
     ];
 }

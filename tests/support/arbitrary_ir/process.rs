@@ -21,14 +21,15 @@ pub fn data(b: &mut Bytes<'_>, groups: &[Group], types: &[TypeDef], is_ethercat:
         let mut numbers = b.list(3, |b| b.within(0..=9));
         numbers.sort_unstable();
         numbers.dedup();
-        pdos.extend(numbers.into_iter().map(|number| pdo(b, (groups, types), direction, first + number, is_ethercat)));
+        pdos.extend(numbers.into_iter().map(|number| pdo(b, groups, types, direction, first + number, is_ethercat)));
     }
     ProcessData { pdos, sync_managers: if is_ethercat { sync_managers(b) } else { Vec::new() }, images: Vec::new() }
 }
 
 fn pdo(
     b: &mut Bytes<'_>,
-    (groups, types): (&[Group], &[TypeDef]),
+    groups: &[Group],
+    types: &[TypeDef],
     direction: Direction,
     index: u16,
     is_ethercat: bool,

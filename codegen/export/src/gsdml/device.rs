@@ -21,7 +21,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     let [vendor, hardware, software] =
         ["ModuleInfo/VendorName", "HardwareRelease", "SoftwareRelease"].map(|key| find(attributes, key));
     let values = [vendor, &device.identity.order_code, hardware, software];
-    info(xml, context, (&device.name, &device.names), device.documentation.as_deref(), attributes, values);
+    info(xml, context, &device.name, &device.names, device.documentation.as_deref(), attributes, values);
     elements::CERTIFICATION.write(xml, attributes);
     subslots(xml, context, &settings.subslot_names);
     io_config_data(xml, settings);

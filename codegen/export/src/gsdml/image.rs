@@ -245,7 +245,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
             [only] if only.bit_offset == start && end == end_of_bytes => {
                 fields.push(whole(only, image, types, notes));
             }
-            _ => bits(&mut fields, &mut items, run, (start, end_of_bytes), notes),
+            _ => bits(&mut fields, &mut items, run, start, end_of_bytes, notes),
         }
         (at, next) = (end_of_bytes, last);
     }
@@ -291,13 +291,7 @@ fn whole(field: &PdoEntry, image: &ProcessImage, types: &[TypeDef], notes: &mut 
 
 /// Adds one data item, which consists of bits, for fields that share bytes or are not byte-aligned. Adds a note for
 /// each field that is longer than one bit or overlaps another field.
-fn bits(
-    fields: &mut Vec<PdoEntry>,
-    items: &mut Vec<IoItem>,
-    run: &[&PdoEntry],
-    (from, to): (u32, u32),
-    notes: &mut Notes,
-) {
+fn bits(fields: &mut Vec<PdoEntry>, items: &mut Vec<IoItem>, run: &[&PdoEntry], from: u32, to: u32, notes: &mut Notes) {
     let first = u32::try_from(fields.len()).unwrap_or(u32::MAX);
     let padding = |at: u32, end: u32| PdoEntry {
         bit_offset: at,

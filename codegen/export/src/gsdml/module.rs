@@ -17,7 +17,8 @@ pub(super) fn find<'a>(attributes: &'a Attributes, key: &str) -> &'a str {
 pub(super) fn info(
     xml: &mut Xml,
     context: &mut Context<'_>,
-    (name, names): (&str, &Texts),
+    name: &str,
+    names: &Texts,
     documentation: Option<&Documentation>,
     attributes: &Attributes,
     values: [&str; 4],
@@ -79,7 +80,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     elements::kept(xml, &module.attributes);
     let Module { name, names, documentation, identity, revision, version, attributes, .. } = module;
     let values = [&identity.vendor_name, &identity.order_code, revision, version].map(|text| text.as_str());
-    info(xml, context, (name, names), documentation.as_deref(), attributes, values);
+    info(xml, context, name, names, documentation.as_deref(), attributes, values);
     subslots(xml, context, &module.subslot_names);
     submodule::built_in(xml, context, &module.submodules, None);
     submodule::useable(xml, context, &module.submodules);

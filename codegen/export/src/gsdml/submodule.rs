@@ -67,7 +67,7 @@ pub(super) fn built_in(
         built_in.into_iter().partition(|(submodule, _)| submodule.kind == SubmoduleKind::Virtual);
     xml.list("VirtualSubmoduleList", ordinary, |xml, (submodule, submodule_use)| {
         let fixed = Some(&submodule_use.places.fixed).filter(|numbers| **numbers != Numbers::from_iter([1]));
-        write(xml, context, submodule, ("VirtualSubmoduleItem", fixed), None);
+        write(xml, context, submodule, "VirtualSubmoduleItem", fixed, None);
     });
     let mut settings = settings;
     xml.list("SystemDefinedSubmoduleList", system, |xml, (submodule, submodule_use)| {
@@ -77,7 +77,7 @@ pub(super) fn built_in(
         };
         // The first interface contains the settings of the whole device.
         let settings = settings.take_if(|_| submodule.kind == SubmoduleKind::Interface);
-        write(xml, context, submodule, (element, Some(&submodule_use.places.fixed)), settings);
+        write(xml, context, submodule, element, Some(&submodule_use.places.fixed), settings);
     });
 }
 
@@ -109,7 +109,7 @@ pub(super) fn pluggable(xml: &mut Xml, context: &mut Context<'_>) {
             SubmoduleKind::Port => "PortSubmoduleItem",
             _ => "SubmoduleItem",
         };
-        write(xml, context, submodule, (element, None), None);
+        write(xml, context, submodule, element, None, None);
     });
 }
 
@@ -117,7 +117,8 @@ fn write(
     xml: &mut Xml,
     context: &mut Context<'_>,
     submodule: &Submodule,
-    (element, fixed): (&'static str, Option<&Numbers>),
+    element: &'static str,
+    fixed: Option<&Numbers>,
     settings: Option<&ProfinetSettings>,
 ) {
     let attributes = submodule.attributes.as_slice();
@@ -175,7 +176,7 @@ fn info(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
     let Submodule { name, names, documentation, identity, .. } = submodule;
     let [hardware, software] = ["HardwareRelease", "SoftwareRelease"].map(|key| find(attributes, key));
     let values = [&identity.vendor_name, &identity.order_code, hardware, software];
-    module::info(xml, context, (name, names), documentation.as_deref(), attributes, values);
+    module::info(xml, context, name, names, documentation.as_deref(), attributes, values);
 }
 
 /// Writes the child elements of an interface that come after its records.

@@ -45,7 +45,9 @@ impl OfRecord<'_> {
         &self,
         item: &Item,
         types: &[TypeDef],
-        (index, bit_offset, bits): (u16, u32, u32),
+        index: u16,
+        bit_offset: u32,
+        bits: u32,
     ) -> impl Iterator<Item = Request> {
         let access = item.access_on(Bus::Profinet);
         let address = self.address(index, bit_offset, bits);

@@ -3,12 +3,12 @@
 use super::docs;
 use super::f_record::{self, FRecordModel};
 use super::image::{self, ImageModel};
-use super::literal;
 use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
 use crate::backend::rust::code::{call, seq, slice, Data, Declaration, Doc};
 use crate::backend::rust::doc_table;
 use crate::backend::rust::identity;
+use crate::backend::rust::literal;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, SlotNumbers, Submodule, SubmoduleUse};
 use crate::number::{hex16, hex32};
 use crate::text::count_of;

@@ -3,9 +3,9 @@
 use super::docs;
 use super::field::{Field, Use};
 use super::values::Values;
-use super::RustOptions;
 use crate::backend::rust::code::Doc;
 use crate::backend::rust::doc_table;
+use crate::backend::rust::RustOptions;
 use crate::ir::{Direction, IoData, PdoEntryKind, Submodule, Type};
 use crate::names::{self, Case, NameRequest};
 use crate::text::count_of;

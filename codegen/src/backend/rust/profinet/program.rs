@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::image;
 use super::scope::{AccessPoint, Scope};
-use super::RustOptions;
+use crate::backend::rust::RustOptions;
 use crate::ir::{Catalog, Direction, IoData, ModuleUse, Numbers, Submodule, SubmoduleId, SubmoduleUse};
 
 /// The generated elements with which a program exchanges data with a PROFINET device.

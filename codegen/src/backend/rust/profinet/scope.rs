@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::values::Values;
-use super::RustOptions;
+use crate::backend::rust::RustOptions;
 use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, Type};
 use crate::names::{self, Case, NameRequest};
 

@@ -2,8 +2,8 @@
 
 use super::record::{self, RecordStruct};
 use super::scope::Scope;
-use super::RustOptions;
 use crate::backend::rust::calls::RecordUsage;
+use crate::backend::rust::RustOptions;
 use crate::collections::HashMap;
 use crate::ir::{Catalog, ItemId, SubmoduleId};
 

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use super::docs;
 use super::types::resolve;
-use super::RustOptions;
 use crate::backend::rust::doc_table;
 use crate::backend::rust::value_type::native;
+use crate::backend::rust::RustOptions;
 use crate::collections::HashSet;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::names::{self, Case, NameRequest};
