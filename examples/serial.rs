@@ -135,9 +135,9 @@ mod unix {
             reply: &[u8],
             to: &mut [u8],
         ) -> Result<usize, Error<E>> {
-            let own = value(head(READ, parameter), reply)?;
-            to.iter_mut().zip(own.iter().rev()).for_each(|(to, from)| *to = *from);
-            Ok(own.len())
+            let bytes = value(head(READ, parameter), reply)?;
+            to.iter_mut().zip(bytes.iter().rev()).for_each(|(to, from)| *to = *from);
+            Ok(bytes.len())
         }
 
         fn write_request(&self, parameter: Parameter, value: &[u8], to: &mut [u8]) -> Result<usize, WriteError> {

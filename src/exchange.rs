@@ -104,9 +104,9 @@ pub trait AsyncExchange {
 ///     }
 ///
 ///     fn read_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
-///         let own = reply.strip_prefix(&[parameter.0 as u8]).ok_or(Error::UnexpectedReply)?;
-///         value.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
-///         Ok(own.len())
+///         let bytes = reply.strip_prefix(&[parameter.0 as u8]).ok_or(Error::UnexpectedReply)?;
+///         value.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
+///         Ok(bytes.len())
 ///     }
 ///
 ///     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError> {

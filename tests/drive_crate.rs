@@ -34,11 +34,11 @@ fn a_users_crate_compiles_and_its_tests_pass() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pump");
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
-    let own = root().join("tests/drive-crate");
+    let source = root().join("tests/drive-crate");
     for name in ["build.rs", "pump.eds", "src/lib.rs"] {
-        std::fs::copy(own.join(name), folder.join(name)).expect("a file of the drive crate");
+        std::fs::copy(source.join(name), folder.join(name)).expect("a file of the drive crate");
     }
-    let manifest = std::fs::read_to_string(own.join("Cargo.toml")).expect("the manifest of the drive crate");
+    let manifest = std::fs::read_to_string(source.join("Cargo.toml")).expect("the manifest of the drive crate");
     let manifest = manifest.replace("../..", &root().display().to_string()) + "\n[workspace]\n";
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
     let output = cargo(&folder, &["test", "--quiet"]);
@@ -273,8 +273,8 @@ fn the_crate_of_the_book() {
             "output" => printed = block.strip_prefix("$ cargo run\n").map(str::to_owned),
             "Cargo.toml" => {
                 // Use the crates of this workspace in place of the published crates.
-                let own = |name: &str, path: &Path| format!("{name} = {{ path = {path:?} }}\n");
-                let patch = own("lexibus", root()) + &own("lexibus-codegen", &root().join("codegen"));
+                let dependency = |name: &str, path: &Path| format!("{name} = {{ path = {path:?} }}\n");
+                let patch = dependency("lexibus", root()) + &dependency("lexibus-codegen", &root().join("codegen"));
                 let manifest = format!("{block}\n\n[workspace]\n\n[patch.crates-io]\n{patch}");
                 std::fs::write(folder.join(name), manifest).expect("a manifest");
             }

@@ -38,8 +38,8 @@ fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
 }
 
 /// Returns whether the node has received all expected requests.
-fn is_done(own: &mut Node<Script>) -> bool {
-    own.port().is_done()
+fn is_done(drive: &mut Node<Script>) -> bool {
+    drive.port().is_done()
 }
 
 /// Writes an item and checks the SDO request.
@@ -51,8 +51,8 @@ where
     L: On<CanOpen>,
     L::Route: WriteRoute<CanOpen>,
 {
-    let mut own = node(&[confirmed(request)]);
-    item.at(&mut own).write(value).expect("written");
+    let mut drive = node(&[confirmed(request)]);
+    item.at(&mut drive).write(value).expect("written");
 }
 
 fn control(raw: u16) -> Controlword {
@@ -178,12 +178,12 @@ type Listed<'l> = &'l [(u16, u8, u8, u32)];
 /// Sends a procedure to a node. The node expects the writes that the manual prints.
 #[track_caller]
 fn sends(procedure: &[SdoWrite], listed: Listed<'_>) {
-    let script: Vec<_> = listed.iter().map(|own| confirmed(sdo(own.0, own.1, own.2, own.3))).collect();
-    let mut own = node(&script);
+    let script: Vec<_> = listed.iter().map(|row| confirmed(sdo(row.0, row.1, row.2, row.3))).collect();
+    let mut drive = node(&script);
     for write in procedure {
-        write.send(&mut own).expect("confirmed");
+        write.send(&mut drive).expect("confirmed");
     }
-    assert!(is_done(&mut own), "all of them are sent");
+    assert!(is_done(&mut drive), "all of them are sent");
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn procedures_send_what_the_manual_lists() {
 #[test]
 fn saving_on_canopen() -> Answer<()> {
     let state = |low| ([0x40, 0x41, 0x60, 0, 0, 0, 0, 0], [0x4B, 0x41, 0x60, 0, low, 0x02, 0, 0]);
-    let mut own = node(&[
+    let mut drive = node(&[
         confirmed([0x2B, 0x40, 0x60, 0, 0x02, 0, 0, 0]),
         confirmed([0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65]),
         confirmed([0x2B, 0x40, 0x60, 0, 0x06, 0, 0, 0]),
@@ -232,46 +232,46 @@ fn saving_on_canopen() -> Answer<()> {
         state(0x50),
         state(0x31),
     ]);
-    objects::CONTROLWORD.at(&mut own).write(control(0x0002))?;
-    store_parameter_field::SAVE_ALL_PARAMETERS.at(&mut own).write(StoreParameters::Save)?;
-    objects::CONTROLWORD.at(&mut own).write(control(0).with_command(Command::Shutdown))?;
-    while !objects::STATUSWORD.at(&mut own).read()?.ready_to_switch_on() {}
-    assert!(is_done(&mut own));
+    objects::CONTROLWORD.at(&mut drive).write(control(0x0002))?;
+    store_parameter_field::SAVE_ALL_PARAMETERS.at(&mut drive).write(StoreParameters::Save)?;
+    objects::CONTROLWORD.at(&mut drive).write(control(0).with_command(Command::Shutdown))?;
+    while !objects::STATUSWORD.at(&mut drive).read()?.ready_to_switch_on() {}
+    assert!(is_done(&mut drive));
     Ok(())
 }
 
 /// Reads an item from a node.
-fn read<V, A, L>(own: &mut Node<Script>, item: Item<V, A, L>) -> Answer<V::Native>
+fn read<V, A, L>(drive: &mut Node<Script>, item: Item<V, A, L>) -> Answer<V::Native>
 where
     V: Fixed,
     A: Readable,
     L: On<CanOpen>,
     L::Route: ReadRoute<CanOpen>,
 {
-    Ok(item.at(own).read()?)
+    Ok(item.at(drive).read()?)
 }
 
 #[test]
 fn parameters_by_the_window_of_eight_bits() {
     // Section "Lettura parametri drive". When the device has reset the address to 0, the value of d1 is available.
-    let mut own = node(&[
+    let mut drive = node(&[
         confirmed([0x2F, 0x00, 0x20, 3, 1, 0, 0, 0]),
         ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 1, 0, 0, 0]),
         ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 0, 0, 0, 0]),
         ([0x40, 0x00, 0x20, 4, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 4, 80, 0, 0, 0]),
     ]);
-    drive_parameters_settings::PARAMETER_READ_ADDRESS.at(&mut own).write(1).expect("written");
-    while read(&mut own, drive_parameters_settings::PARAMETER_READ_ADDRESS).expect("read") != 0 {}
-    assert_eq!(read(&mut own, drive_parameters_settings::PARAMETER_READ_VALUE), Ok(80));
+    drive_parameters_settings::PARAMETER_READ_ADDRESS.at(&mut drive).write(1).expect("written");
+    while read(&mut drive, drive_parameters_settings::PARAMETER_READ_ADDRESS).expect("read") != 0 {}
+    assert_eq!(read(&mut drive, drive_parameters_settings::PARAMETER_READ_VALUE), Ok(80));
     // Sections "Scrittura parametri drive" and "Esempio completo di asse gestito con interpolatore". The manual writes
     // the value before the address.
     for (address, value) in [(2, 40), (1, 80), (2, 20)] {
-        let mut own = node(&[
+        let mut drive = node(&[
             confirmed([0x2F, 0x00, 0x20, 2, value, 0, 0, 0]),
             confirmed([0x2F, 0x00, 0x20, 1, address, 0, 0, 0]),
         ]);
-        drive_parameters_settings::PARAMETER_WRITE_VALUE.at(&mut own).write(value).expect("written");
-        drive_parameters_settings::PARAMETER_WRITE_ADDRESS.at(&mut own).write(address).expect("written");
+        drive_parameters_settings::PARAMETER_WRITE_VALUE.at(&mut drive).write(value).expect("written");
+        drive_parameters_settings::PARAMETER_WRITE_ADDRESS.at(&mut drive).write(address).expect("written");
     }
 }
 
@@ -280,7 +280,7 @@ fn parameters_by_the_window_of_eight_bits() {
 #[test]
 fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
     let mut waited = Vec::new();
-    let mut own = Timed::new(
+    let mut drive = Timed::new(
         node(&[
             confirmed([0x2B, 0x05, 0x20, 1, 0x01, 0x00, 0, 0]),
             ([0x40, 0x05, 0x20, 2, 0, 0, 0, 0], [0x43, 0x05, 0x20, 2, 80, 0, 0, 0]),
@@ -293,15 +293,15 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
         ]),
         |time| waited.push(time),
     );
-    assert_eq!(objects::D1.at(&mut own).read()?, 80);
-    objects::D2.at(&mut own).write(40)?;
+    assert_eq!(objects::D1.at(&mut drive).read()?, 80);
+    objects::D2.at(&mut drive).write(40)?;
     // Registers R01 and R00. A negative value is sign-extended to 32 bits.
-    assert_eq!(objects::MODES_OF_OPERATION.at(&mut own).read()?, Mode::ElectricAxis);
+    assert_eq!(objects::MODES_OF_OPERATION.at(&mut drive).read()?, Mode::ElectricAxis);
     let enabled = DriveCommand::new().with_torque_enable(true).with_motion_enable(true);
-    objects::CONTROL_WORD.at(&mut own).write(enabled)?;
-    assert!(is_done(own.client()));
+    objects::CONTROL_WORD.at(&mut drive).write(enabled)?;
+    assert!(is_done(drive.client()));
     // A value outside the range of d2 must not be sent.
-    assert_eq!(objects::D2.at(&mut own).write(100).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(objects::D2.at(&mut drive).write(100).map_err(Error::from), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(waited, [Duration::from_millis(3); 4]);
     Ok(())
 }
@@ -310,7 +310,7 @@ fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
 #[test]
 fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
     let address = |index, number| ([0x40, index, 0x20, 1, 0, 0, 0, 0], [0x4B, index, 0x20, 1, number, 0, 0, 0]);
-    let mut own = node(&[
+    let mut drive = node(&[
         confirmed([0x2B, 0x05, 0x20, 1, 0x01, 0x00, 0, 0]),
         address(0x05, 1),
         address(0x05, 0),
@@ -320,13 +320,13 @@ fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
         address(0x06, 2),
         address(0x06, 0),
     ]);
-    drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut own).write(1)?;
-    while drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut own).read()? != 0 {}
-    assert_eq!(drive_variable_read::VARIABLE_READ_VALUE.at(&mut own).read()?, 80);
-    drive_variable_write::VARIABLE_WRITE_VALUE.at(&mut own).write(40)?;
-    drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut own).write(2)?;
-    while drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut own).read()? != 0 {}
-    assert!(is_done(&mut own));
+    drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut drive).write(1)?;
+    while drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut drive).read()? != 0 {}
+    assert_eq!(drive_variable_read::VARIABLE_READ_VALUE.at(&mut drive).read()?, 80);
+    drive_variable_write::VARIABLE_WRITE_VALUE.at(&mut drive).write(40)?;
+    drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut drive).write(2)?;
+    while drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut drive).read()? != 0 {}
+    assert!(is_done(&mut drive));
     Ok(())
 }
 
@@ -362,8 +362,8 @@ fn scales_follow_the_feed_constant() {
 fn a_window_that_is_off_is_no_number() {
     // The value 0xFFFFFFFF of object 0x6065 disables the following-error check.
     let off = [0x43, 0x65, 0x60, 0, 0xFF, 0xFF, 0xFF, 0xFF];
-    let mut own = node(&[([0x40, 0x65, 0x60, 0, 0, 0, 0, 0], off)]);
-    assert_eq!(objects::FOLLOWING_ERROR_WINDOW.at(&mut own).read(), Ok(u32::MAX));
+    let mut drive = node(&[([0x40, 0x65, 0x60, 0, 0, 0, 0, 0], off)]);
+    assert_eq!(objects::FOLLOWING_ERROR_WINDOW.at(&mut drive).read(), Ok(u32::MAX));
     assert_eq!(objects::FOLLOWING_ERROR_WINDOW.physical_by(u32::MAX, 60.0), None);
     assert_eq!(objects::VELOCITY_WINDOW.physical(0xFFFF), None);
     assert_eq!(objects::VELOCITY_WINDOW.physical(7), Some(7.0));
@@ -416,12 +416,12 @@ fn values_of_several_parameters() {
 
 #[test]
 fn alarms_have_codes_of_their_own_on_each_bus() {
-    let general = codes::GENERAL_ALARMS.iter().find(|own| own.first == 16).expect("an alarm");
+    let general = codes::GENERAL_ALARMS.iter().find(|row| row.first == 16).expect("an alarm");
     assert_eq!(general.name, "following error");
-    let code = |alarm| codes::ETHERCAT_ALARMS.iter().find(|own| own.first == alarm).map(|own| own.cells);
+    let code = |alarm| codes::ETHERCAT_ALARMS.iter().find(|row| row.first == alarm).map(|row| row.cells);
     assert_eq!(code(16), Some([Cell::Number(0x8611)].as_slice()));
     assert_eq!(code(30), Some([Cell::Empty].as_slice()));
     let names = [codes::ETHERCAT_ALARMS, codes::PROFINET_ALARMS]
-        .map(|table| table.iter().find(|own| own.first == 33).map(|own| own.name));
+        .map(|table| table.iter().find(|row| row.first == 33).map(|row| row.name));
     assert_eq!(names, [Some("PDO mapping failed"), Some("fieldbus not started properly")]);
 }

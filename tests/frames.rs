@@ -178,11 +178,11 @@ fn sdo_expedited() -> Result<(), Error<Infallible>> {
     const HEARTBEAT: Item<u16, Rw, OnCanOpen> = Item::object(0x1017, 0, "Producer heartbeat time");
     const VENDOR: Item<u32, Ro, OnCanOpen> = Item::object(0x1018, 1, "Vendor-ID");
     // Section "Device Configuration via SDOs": heartbeat time.
-    let mut own = node(&[([0x2B, 0x17, 0x10, 0, 0xA0, 0x0F, 0, 0], [0x60, 0x17, 0x10, 0, 0, 0, 0, 0])]);
-    HEARTBEAT.at(&mut own).write(4000)?;
+    let mut drive = node(&[([0x2B, 0x17, 0x10, 0, 0xA0, 0x0F, 0, 0], [0x60, 0x17, 0x10, 0, 0, 0, 0, 0])]);
+    HEARTBEAT.at(&mut drive).write(4000)?;
     // Section "Device Configuration via SDOs": vendor ID.
-    let mut own = node(&[([0x40, 0x18, 0x10, 1, 0, 0, 0, 0], [0x43, 0x18, 0x10, 1, 6, 0, 0, 0])]);
-    assert_eq!(VENDOR.at(&mut own).read()?, 6);
+    let mut drive = node(&[([0x40, 0x18, 0x10, 1, 0, 0, 0, 0], [0x43, 0x18, 0x10, 1, 6, 0, 0, 0])]);
+    assert_eq!(VENDOR.at(&mut drive).read()?, 6);
     Ok(())
 }
 
@@ -191,7 +191,7 @@ fn sdo_segmented() -> Result<(), Error<Infallible>> {
     const NAME: Item<VisibleString, Ro, OnCanOpen> =
         Item::new(OnCanOpen::canopen(0x1008, 0), "Device name", Range::Full, Initial::Unknown, "", Flags::NONE);
     // Section "Device Configuration via SDOs": segmented transfer.
-    let mut own = node(&[
+    let mut drive = node(&[
         ([0x40, 0x08, 0x10, 0, 0, 0, 0, 0], [0x41, 0x08, 0x10, 0, 0x1A, 0, 0, 0]),
         ([0x60, 0, 0, 0, 0, 0, 0, 0], [0x00, 0x54, 0x69, 0x6E, 0x79, 0x20, 0x4E, 0x6F]),
         ([0x70, 0, 0, 0, 0, 0, 0, 0], [0x10, 0x64, 0x65, 0x20, 0x2D, 0x20, 0x4D, 0x65]),
@@ -199,7 +199,7 @@ fn sdo_segmented() -> Result<(), Error<Infallible>> {
         ([0x70, 0, 0, 0, 0, 0, 0, 0], [0x15, 0x69, 0x6E, 0x73, 0x20, 0x21, 0, 0]),
     ]);
     let mut buffer = [0; 32];
-    assert_eq!(NAME.at(&mut own).read_into(&mut buffer)?, "Tiny Node - Mega Domains !");
+    assert_eq!(NAME.at(&mut drive).read_into(&mut buffer)?, "Tiny Node - Mega Domains !");
     Ok(())
 }
 

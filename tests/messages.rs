@@ -34,10 +34,10 @@ struct Simulated {
 impl Simulated {
     fn answer(&mut self, request: &[u8], to: &mut Writer<'_>) {
         self.sent.push(request.to_vec());
-        let (station, own) = Request::parse(request).expect("a request");
+        let (station, received) = Request::parse(request).expect("a request");
         assert_eq!(station, NODE);
         let status = types::Status::new().with_done(true);
-        let written = match own {
+        let written = match received {
             Request::Go(go) if go.target > 100_000 => {
                 let reason = types::Reason::OutOfRange;
                 Refused { status, reason }.write(request, to)
@@ -62,7 +62,7 @@ impl Simulated {
             Request::PollLoad(_) if self.shows_load => PollLoadReply { status, load: 0x7FFF }.write(request, to),
             Request::PollLoad(_) => PollHeightReply { status, height: self.height }.write(request, to),
             Request::Write(write) => {
-                self.parameters.extend(write.settings.iter().map(|own| (own.parameter.0, own)));
+                self.parameters.extend(write.settings.iter().map(|setting| (setting.parameter.0, setting)));
                 WriteReply.write(request, to)
             }
             Request::Read(read) => match self.parameters.get(&read.parameter.0) {
@@ -82,7 +82,7 @@ impl Simulated {
                 SamplesReply { entries: List::from(&entries) }.write(request, to)
             }
             Request::Play(play) => {
-                self.height = play.entries.iter().map(|own| own.height).sum();
+                self.height = play.entries.iter().map(|entry| entry.height).sum();
                 PlayReply.write(request, to)
             }
             Request::Note(note) => {
@@ -199,7 +199,7 @@ fn what_a_request_means_is_a_type() {
 fn what_is_repeated_and_what_goes_on_to_the_end() {
     let mut hoist = hoist();
     let reply = hoist.samples().send().unwrap();
-    let loads: Vec<(i16, u8, u8)> = reply.entries.iter().map(|own| (own.load, own.moving, own.phase)).collect();
+    let loads: Vec<(i16, u8, u8)> = reply.entries.iter().map(|entry| (entry.load, entry.moving, entry.phase)).collect();
     assert_eq!(loads, [(-15, 1, 9), (7, 0, 15)]);
     let entries = [PlayEntry { height: -70_000, pause: 3 }, PlayEntry { height: 1, pause: 0 }];
     hoist.play(List::from(&entries)).send().unwrap();
@@ -219,7 +219,7 @@ fn every_byte_of_a_reply_counts() {
     let request = [5, 0x02, 0x02, 0x34, 0x00, 0x01, 0x25, 0x8E];
     let reply = [5, 0x02, 0x02, 0x34, 0x00, 0x01];
     let read = |data: &[u8]| GoReply::read(&request, &mut Reader::new(data));
-    assert!(read(&reply).is_some_and(|own| own.is_complete()));
+    assert!(read(&reply).is_some_and(|reply| reply.is_complete()));
     for byte in [0, 2, 3, 4, 5] {
         for bit in 0..8 {
             let mut other = reply;
@@ -233,13 +233,13 @@ fn every_byte_of_a_reply_counts() {
 #[test]
 fn requests_come_back_from_their_bytes() {
     let settings = [objects::GAIN.setting(1).unwrap(), objects::HEIGHT.setting(2).unwrap()];
-    let own = Write { settings: Settings::sent(&settings, messages::PARAMETER) };
+    let message = Write { settings: Settings::sent(&settings, messages::PARAMETER) };
     let mut data = [0; 40];
     let mut to = Writer::new(&mut data);
-    own.write(7, &mut to).unwrap();
-    assert_eq!(Write::parse(&mut Reader::new(to.written())), Some((7, own)));
+    message.write(7, &mut to).unwrap();
+    assert_eq!(Write::parse(&mut Reader::new(to.written())), Some((7, message)));
     assert_eq!(Write::parse(&mut Reader::new(&to.written()[..9])), None);
-    assert_eq!(own.write(256, &mut Writer::new(&mut [0; 40])), Err(OutOfRange.into()));
+    assert_eq!(message.write(256, &mut Writer::new(&mut [0; 40])), Err(OutOfRange.into()));
     let go = Go { target: -1000, speed: 3000, trim: -4 };
     let mut to = Writer::new(&mut data);
     go.write(0, &mut to).unwrap();

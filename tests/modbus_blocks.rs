@@ -79,12 +79,12 @@ fn words(count: u16) -> impl Strategy<Value = Register> {
     place.prop_map(move |(address, is_input, is_low_first, is_swapped)| {
         let table = if is_input { RegisterTable::Input } else { RegisterTable::Holding };
         let order = if is_low_first && !is_input { WordOrder::LowFirst } else { WordOrder::HighFirst };
-        let own = Register::new(table, address, count).ordered(order);
-        let own = if is_input { own.words_per_address(2) } else { own };
+        let register = Register::new(table, address, count).ordered(order);
+        let register = if is_input { register.words_per_address(2) } else { register };
         if is_swapped {
-            own.swapped()
+            register.swapped()
         } else {
-            own
+            register
         }
     })
 }
@@ -102,9 +102,9 @@ fn part() -> impl Strategy<Value = Register> {
 }
 
 /// Returns all addresses of a register with their table.
-fn addresses(own: &Register) -> impl Iterator<Item = (RegisterTable, u16)> {
-    let (table, first) = (own.table, own.address);
-    (0..own.addresses()).map(move |at| (table, first + at))
+fn addresses(register: &Register) -> impl Iterator<Item = (RegisterTable, u16)> {
+    let (table, first) = (register.table, register.address);
+    (0..register.addresses()).map(move |at| (table, first + at))
 }
 
 /// Returns whether a request may include the address.
@@ -112,16 +112,16 @@ fn is_described(items: &[Register], table: RegisterTable, address: u16) -> bool 
     let step = if table == RegisterTable::Input { 2 } else { 1 };
     let spans = LIMITS.of(table).readable.iter().filter(|span| span.words_per_address == step);
     spans.into_iter().any(|span| (span.first..=span.last).contains(&address))
-        || items.iter().flat_map(addresses).any(|own| own == (table, address))
+        || items.iter().flat_map(addresses).any(|described| described == (table, address))
 }
 
 /// Returns the minimum number of requests that read all items of a table. Uses an exhaustive search.
 fn fewest(items: &[Register], table: RegisterTable) -> usize {
-    let own: Vec<Register> = items.iter().copied().filter(|item| item.table == table).collect();
-    let all = (1_u32 << own.len()) - 1;
+    let wanted: Vec<Register> = items.iter().copied().filter(|item| item.table == table).collect();
+    let all = (1_u32 << wanted.len()) - 1;
     let mut reached = HashMap::from([(0_u32, 0_usize)]);
-    let windows: Vec<u32> = (0..24).map(|first| window(&own, items, table, first)).collect();
-    for requests in 1..=own.len() {
+    let windows: Vec<u32> = (0..24).map(|first| window(&wanted, items, table, first)).collect();
+    for requests in 1..=wanted.len() {
         let now: Vec<u32> = reached.keys().copied().collect();
         for set in now.iter().flat_map(|set| windows.iter().map(move |window| set | window)) {
             reached.entry(set).or_insert(requests);
@@ -131,12 +131,12 @@ fn fewest(items: &[Register], table: RegisterTable) -> usize {
 }
 
 /// Returns the set of items that the longest allowed request from an address reads.
-fn window(own: &[Register], items: &[Register], table: RegisterTable, first: u16) -> u32 {
+fn window(wanted: &[Register], items: &[Register], table: RegisterTable, first: u16) -> u32 {
     let step = if table == RegisterTable::Input { 2 } else { 1 };
     let longest = first + LIMITS.max_read(table) / step;
     let end = (first..longest).find(|&address| !is_described(items, table, address)).unwrap_or(longest);
     let is_within = |item: &Register| item.address >= first && item.address + item.addresses() <= end;
-    own.iter().enumerate().filter(|(_, item)| is_within(item)).fold(0, |set, (at, _)| set | 1 << at)
+    wanted.iter().enumerate().filter(|(_, item)| is_within(item)).fold(0, |set, (at, _)| set | 1 << at)
 }
 
 proptest! {
@@ -182,8 +182,8 @@ proptest! {
             Register::new(tables[usize::from(table)], address, count).words_per_address(words)
         });
         let spans = Box::leak(Box::new([Span { first: 0, last: u16::MAX, words_per_address: step }]));
-        let own = TableLimits { max_read: max, split, readable: spans, ..TableLimits::HOLDING };
-        let limits = Limits { holding: own, input: own, coil: own, discrete: own };
+        let table_limits = TableLimits { max_read: max, split, readable: spans, ..TableLimits::HOLDING };
+        let limits = Limits { holding: table_limits, input: table_limits, coil: table_limits, discrete: table_limits };
         if let Ok(plan) = Plan::new(items, &limits) {
             for request in plan.requests().iter().filter(|request| !items.contains(request)) {
                 prop_assert!(request.count <= limits.max_read(request.table));

@@ -363,9 +363,9 @@ impl Client for Memory {
     type Error = Infallible;
 
     fn read(&mut self, memory: EscMemory, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
-        let own = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
-        buffer.copy_from_slice(own);
-        Ok(own.len())
+        let bytes = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
+        buffer.copy_from_slice(bytes);
+        Ok(bytes.len())
     }
 
     fn write(&mut self, memory: EscMemory, data: &[u8]) -> Result<(), Error<Infallible>> {

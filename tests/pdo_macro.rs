@@ -222,8 +222,8 @@ fn it_is_what_the_compiler_emits_for_the_default() {
     use demo_drive::{pdo::RxPdo2, types::Controlword};
 
     let controlword = Controlword::from_raw(0x000F);
-    let own = SameAsDefault { controlword, target_position: -2 };
-    assert_eq!(own.pack(), RxPdo2 { controlword, target_position: -2 }.pack());
+    let image = SameAsDefault { controlword, target_position: -2 };
+    assert_eq!(image.pack(), RxPdo2 { controlword, target_position: -2 }.pack());
     assert_eq!(SameAsDefault::configuration(node(9)), RxPdo2::configuration(node(9)));
     assert_eq!((SameAsDefault::BITS, SameAsDefault::LEN), (RxPdo2::BITS, RxPdo2::LEN));
     assert_eq!((SameAsDefault::COB_ID, SameAsDefault::MAPPING), (RxPdo2::COB_ID, RxPdo2::MAPPING));
@@ -289,10 +289,10 @@ proptest! {
 
     #[test]
     fn frames_of_a_drive_are_read_alike(frame: [u8; 8]) {
-        let (own, default) = (SameAsDefault::unpack(&frame).unwrap(), demo_drive::pdo::RxPdo2::unpack(&frame).unwrap());
-        prop_assert_eq!((own.controlword, own.target_position), (default.controlword, default.target_position));
+        let (image, default) = (SameAsDefault::unpack(&frame).unwrap(), demo_drive::pdo::RxPdo2::unpack(&frame).unwrap());
+        prop_assert_eq!((image.controlword, image.target_position), (default.controlword, default.target_position));
         // Packing must give the same reserved bits with both structs.
-        prop_assert_eq!(own.pack(), default.pack());
+        prop_assert_eq!(image.pack(), default.pack());
     }
 }
 

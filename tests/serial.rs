@@ -140,12 +140,12 @@ impl ParameterMessages for Messages {
     }
 
     fn read_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
-        let own = reply_to(b'r', parameter, reply)?;
-        if own.len() != value.len() {
-            return Err(Error::Length(LengthError::new(value.len(), own.len())));
+        let bytes = reply_to(b'r', parameter, reply)?;
+        if bytes.len() != value.len() {
+            return Err(Error::Length(LengthError::new(value.len(), bytes.len())));
         }
-        value.iter_mut().zip(own.iter().rev()).for_each(|(to, from)| *to = *from);
-        Ok(own.len())
+        value.iter_mut().zip(bytes.iter().rev()).for_each(|(to, from)| *to = *from);
+        Ok(bytes.len())
     }
 
     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError> {
@@ -163,7 +163,7 @@ impl ParameterMessages for Messages {
 
 fn reply_to<E>(kind: u8, parameter: Parameter, reply: &[u8]) -> Result<&[u8], Error<E>> {
     match reply {
-        [own, number, value @ ..] if *own == kind && u32::from(*number) == parameter.0 => Ok(value),
+        [head, number, value @ ..] if *head == kind && u32::from(*number) == parameter.0 => Ok(value),
         [b'!', ..] => Err(Error::Abort(AbortCode::NO_OBJECT)),
         _ => Err(Error::UnexpectedReply),
     }

@@ -360,7 +360,7 @@ fn values_of_every_kind() {
     assert_eq!(drive.encoder_counts().read(), Ok(-3));
     assert_eq!(drive.motor_temperature().read(), Ok(36.5));
     assert_eq!(drive.position_actual_value().read(), Ok(i32::MIN));
-    assert_eq!(drive.cob_id_emcy().read().map(|own| own.raw()), Ok(0x85));
+    assert_eq!(drive.cob_id_emcy().read().map(|cob_id| cob_id.raw()), Ok(0x85));
     // The constants in `vector_step::objects` belong to another device.
     let device = drive.client().device();
     assert_eq!(device.get(vector_step::objects::RPOSTARG), Err(AbortCode::NO_OBJECT));
@@ -571,9 +571,12 @@ fn one_value_on_three_buses() {
 #[test]
 fn blocks_of_registers() {
     let mut device = vector();
-    let holding = |entry: &&Entry| entry.register.is_some_and(|own| own.table == RegisterTable::Holding);
-    let registers: Vec<Register> = vector_step::ENTRIES.iter().filter(holding).filter_map(|own| own.register).collect();
-    let covered = |address: u16| registers.iter().any(|own| (own.address..own.address + own.count).contains(&address));
+    let holding = |entry: &&Entry| entry.register.is_some_and(|register| register.table == RegisterTable::Holding);
+    let registers: Vec<Register> =
+        vector_step::ENTRIES.iter().filter(holding).filter_map(|entry| entry.register).collect();
+    let covered = |address: u16| {
+        registers.iter().any(|register| (register.address..register.address + register.count).contains(&address))
+    };
     let hole = (1..).find(|address| covered(address - 1) && !covered(*address)).unwrap();
     let first = (0..).find(|first| (*first..first + 20).all(covered)).unwrap();
     let read = |device: &mut Device, address, count| device.read_words(RegisterTable::Holding, address, count);
@@ -646,13 +649,13 @@ fn errors_are_listed() {
     let mut device = demo();
     device.emit_emergency(0x8110, 0x11, [1, 2, 3, 4, 5]);
     device.emit_emergency(0x2310, 0x03, [0; 5]);
-    let data: Vec<[u8; 8]> = device.take_emergencies().map(|own| own.to_bytes()).collect();
+    let data: Vec<[u8; 8]> = device.take_emergencies().map(|emergency| emergency.to_bytes()).collect();
     assert_eq!(data, [[0x10, 0x81, 0x11, 1, 2, 3, 4, 5], [0x10, 0x23, 0x03, 0, 0, 0, 0, 0]]);
     let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
-    assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(3));
+    assert_eq!(drive.error_register().read().map(|value| value.raw()), Ok(3));
     let mut list = drive.pre_defined_error_field();
-    assert_eq!(list.pre_defined_error_field1().read().map(|own| own.raw()), Ok(0x2310));
-    assert_eq!(list.pre_defined_error_field2().read().map(|own| own.raw()), Ok(0x0201_8110));
+    assert_eq!(list.pre_defined_error_field1().read().map(|value| value.raw()), Ok(0x2310));
+    assert_eq!(list.pre_defined_error_field2().read().map(|value| value.raw()), Ok(0x0201_8110));
 }
 
 #[test]
@@ -793,7 +796,7 @@ mod frames {
         drive.client().port().device().emit_emergency(0x8611, 0x21, [0; 5]);
         let emergency = drive.client().emergency(PATIENCE).unwrap().unwrap();
         assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
-        assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(0x21));
+        assert_eq!(drive.error_register().read().map(|value| value.raw()), Ok(0x21));
         // If no frames arrive, waiting only advances the clock of the node.
         drive.client().port().set_connected(false);
         assert_eq!(drive.client().heartbeat(Duration::from_secs(3600)), Ok(None));

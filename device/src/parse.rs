@@ -92,16 +92,16 @@ impl Parameter<'_> {
 
     fn number(&self, text: &str) -> Result<Value, ParseError> {
         let (number, unit) = split(text);
-        let own = self.unit();
+        let expected = self.unit();
         let is_scaled = self.physical().is_some();
         match unit {
             RAW => self.raw(number),
             "" if is_scaled => match formula(number) {
                 Some(value) => Ok(value),
-                None => Err(ParseError::UnitNeeded(own.to_owned())),
+                None => Err(ParseError::UnitNeeded(expected.to_owned())),
             },
             "" => self.raw(number),
-            unit if unit != own => Err(ParseError::OtherUnit(own.to_owned(), unit.to_owned())),
+            unit if unit != expected => Err(ParseError::OtherUnit(expected.to_owned(), unit.to_owned())),
             _ => match self.physical() {
                 None => self.raw(number),
                 Some(_) if number.parse::<f64>().is_err() => Err(self.no_value(text)),

@@ -373,7 +373,7 @@ mod tests {
     fn controls(control: u16, states: &[State]) -> Vec<u16> {
         let (mut walker, mut control) = (Walker::new(State::Enabled), control);
         let sent = states.iter().map(|state| {
-            control = walker.cycle(STATUS[*state as usize] as u16, control).expect("a way").control;
+            control = walker.cycle(STATUS[*state as usize] as u16, control).expect("a path").control;
             control
         });
         sent.collect()

@@ -364,9 +364,9 @@ mod tests {
 
     #[test]
     fn errors_of_a_profile_come_before_those_of_all() {
-        static OWN: [ChannelError; 2] =
+        static ERRORS: [ChannelError; 2] =
             [ChannelError::new(0x10, "Supply", "", &[]), ChannelError::of_profile(0x3A00, 0x10, "Drive", "", &[])];
-        let name = |api| ChannelError::find(&OWN, api, 0x10).map(|error| error.name);
+        let name = |api| ChannelError::find(&ERRORS, api, 0x10).map(|error| error.name);
         assert_eq!([name(0), name(0x3A00), name(0x5000)], [Some("Supply"), Some("Drive"), Some("Supply")]);
     }
 

@@ -52,7 +52,7 @@ fn the_limit_of_a_way_is_the_motors() {
     let beyond = [ends[0] - 1, ends[1] + 1, i32::MIN, i32::MAX];
     for target in ends.into_iter().chain(beyond) {
         let both = [sent(&CmdTraj { target }), sent(&CmdTrajVel { target, speed: 1 })];
-        let parsed = both.each_ref().map(|data| Request::parse(data).map(|(_, own)| own));
+        let parsed = both.each_ref().map(|data| Request::parse(data).map(|(_, request)| request));
         let [Some(Request::CmdTraj(one)), Some(Request::CmdTrajVel(two))] = parsed else { panic!("{both:02X?}") };
         assert_eq!((one.target, two.target), (target, target));
     }
@@ -143,7 +143,7 @@ fn mantissa_and_exponent() {
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(64.0, 0..=6), Err(OutOfRange));
     // Appendix A, notation ME15: two representations of 15.5.
     assert_eq!(
-        [(31_744, 4.0), (15_872, 5.0)].map(|(own, power)| objects::KVELPIMANT.physical_by(own, power)),
+        [(31_744, 4.0), (15_872, 5.0)].map(|(raw, power)| objects::KVELPIMANT.physical_by(raw, power)),
         [15.5; 2]
     );
     assert_eq!(objects::KVELPIMANT.mantissa_and_exponent(15.5, 0..=6), Ok((31_744, 4)));

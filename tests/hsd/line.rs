@@ -64,12 +64,12 @@ fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     motor.kp_vel().write_scaled(1.5)?; // writes a parameter with the messages of its parameter space
     motor.cmd_chg_par_n(&[objects::KP_VEL.setting(150)?, objects::LOW_SLIM.setting(-5)?]).send()?;
 
-    let (guide, own) = (include_str!("../../docs/src/serial.md"), include_str!("line.rs"));
+    let (guide, test) = (include_str!("../../docs/src/serial.md"), include_str!("line.rs"));
     let (_, behind) = guide.split_once("let line = SerialLine").ok_or("the sample")?;
     let sample = format!("let line = SerialLine{}", behind.split("\n# ").next().unwrap_or_default());
     assert_eq!(sample.lines().count(), 7);
     for line in sample.lines() {
-        assert!(own.contains(&format!("    {line}\n")), "{line}");
+        assert!(test.contains(&format!("    {line}\n")), "{line}");
     }
     Ok(())
 }

@@ -28,7 +28,7 @@ fn each_model_has_its_own_range_and_initial_value() {
     assert_ne!(one.range(), other.range());
     assert_eq!((one.location(), one.name()), (objects::PIMIN_VEL.location(), objects::PIMIN_VEL.name()));
     let Range::Between(low, _) = *objects::PIMIN_VEL.range() else { panic!("{:?}", objects::PIMIN_VEL.range()) };
-    let is_allowed = |range: &Range<i16>| matches!(range, Range::Between(own, _) if *own <= low);
+    let is_allowed = |range: &Range<i16>| matches!(range, Range::Between(minimum, _) if *minimum <= low);
     // The range in `objects` is the widest range of all models. Only one of the two tested models allows the minimum of
     // this range.
     assert_eq!([one.range(), other.range()].map(is_allowed), [false, true]);

@@ -32,10 +32,10 @@ impl Motor {
 
     /// Executes a request to node 5 and writes the reply. Ignores requests to other nodes and invalid requests.
     pub fn answer(&mut self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
-        let Some((5, own)) = Request::parse(request) else { return Ok(()) };
-        match own {
-            Request::CmdTraj(own) => {
-                (self.target, self.polls) = (own.target, 0);
+        let Some((5, received)) = Request::parse(request) else { return Ok(()) };
+        match received {
+            Request::CmdTraj(trajectory) => {
+                (self.target, self.polls) = (trajectory.target, 0);
                 CmdTrajReply { status: self.status() }.write(request, to)
             }
             Request::PollPosition(_) => self.poll(request, to),
@@ -47,13 +47,13 @@ impl Motor {
                 self.selected = Selected::Speeds;
                 CmdGetVelReply { status: self.status() }.write(request, to)
             }
-            Request::CmdChgParN(own) => {
-                self.parameters.extend(own.settings.iter().map(|own| (own.parameter.0, own)));
+            Request::CmdChgParN(change) => {
+                self.parameters.extend(change.settings.iter().map(|setting| (setting.parameter.0, setting)));
                 CmdChgParNReply { status: self.status() }.write(request, to)
             }
-            Request::CmdGetParN(own) => {
-                let setting = self.parameters.get(&own.parameter.0).copied();
-                let setting = setting.unwrap_or_else(|| Setting::new(Parameter(own.parameter.0), [0; 8], 2));
+            Request::CmdGetParN(query) => {
+                let setting = self.parameters.get(&query.parameter.0).copied();
+                let setting = setting.unwrap_or_else(|| Setting::new(Parameter(query.parameter.0), [0; 8], 2));
                 CmdGetParNReply { status: self.status(), setting }.write(request, to)
             }
             Request::CmdGetSmStat(_) => {

@@ -47,9 +47,9 @@ fn framing_holds(data: &[u8]) {
         assert_eq!(found(&[second, &frame].concat()).last(), Some(&Ok(data.to_vec())), "from {at} on");
     }
     for (place, special) in (0..data.len()).flat_map(|place| SPECIAL.map(|special| (place, special))) {
-        let mut own = data.to_vec();
-        own[place] = special;
-        assert_eq!(found(&framed(&own)), [Ok(own)], "{special:#04X} at {place}");
+        let mut changed = data.to_vec();
+        changed[place] = special;
+        assert_eq!(found(&framed(&changed)), [Ok(changed)], "{special:#04X} at {place}");
     }
 }
 
@@ -128,7 +128,8 @@ fn damage_is_found(data: &[u8]) {
         damaged[bit / 8] ^= 1 << (bit % 8);
         let mut frames = found(&[damaged, next.clone(), next.clone()].concat());
         assert_eq!(frames.pop(), Some(Ok(vec![9, 8, 0])), "bit {bit} of {frame:02X?}");
-        let other = |own: &&Result<Vec<u8>, FrameError>| matches!(own, Ok(own) if own != data && own != &[9, 8, 0]);
+        let other =
+            |frame: &&Result<Vec<u8>, FrameError>| matches!(frame, Ok(frame) if frame != data && frame != &[9, 8, 0]);
         assert_eq!(frames.iter().find(other), None, "bit {bit} of {frame:02X?}");
     }
 }
@@ -272,8 +273,8 @@ fn the_longest_packets() {
     let (short, long) = (setting(0x0105, &[2, 3]), setting(0x011C, &[0x1B, 2, 3, 0x1B]));
     let too_many = WriteError::OutOfRange(OutOfRange);
     let too_long = WriteError::Length(LengthError::new(MAX_DATA, 70));
-    for (own, count, length, refusal) in [(short, 16, 68, too_many), (long, 10, 64, too_long)] {
-        let settings = vec![own; count];
+    for (setting, count, length, refusal) in [(short, 16, 68, too_many), (long, 10, 64, too_long)] {
+        let settings = vec![setting; count];
         let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
         let data = sent(&request);
         assert_eq!(data.len(), length);
@@ -281,7 +282,7 @@ fn the_longest_packets() {
         assert_eq!(received.settings.iter().collect::<Vec<_>>(), settings);
         framing_holds(&data);
         damage_is_found(&data);
-        let one_more = vec![own; count + 1];
+        let one_more = vec![setting; count + 1];
         let request = CmdChgParN { settings: Settings::sent(&one_more, PARAMETER) };
         assert_eq!(request.write(NODE, &mut Writer::new(&mut [0; MAX_DATA])), Err(refusal));
     }

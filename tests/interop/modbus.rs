@@ -71,34 +71,34 @@ pub fn over_rtu() -> Option<(Script, Cable)> {
 
 /// Checks both directions: writes a value and compares it on the server, then sets a value on the server and reads it.
 macro_rules! exchange {
-    ($way:ident, $script:ident, $device:ident, $($place:ident: [$($value:expr),*];)*) => {$(
+    ($access:ident, $script:ident, $device:ident, $($place:ident: [$($value:expr),*];)*) => {$(
         $(
-            $way!($device.$place(), write $value)?;
+            $access!($device.$place(), write $value)?;
             assert_eq!($script.at(stringify!($place)), json!($value), "{} written", stringify!($place));
         )*
         $(
             $script.put(stringify!($place), json!($value));
-            assert_eq!($way!($device.$place(), read)?, $value, "{} read", stringify!($place));
+            assert_eq!($access!($device.$place(), read)?, $value, "{} read", stringify!($place));
         )*
     )*};
 }
 
 /// Writes texts and compares them on the server, then sets texts on the server and reads them.
 macro_rules! exchange_texts {
-    ($way:ident, $script:ident, $device:ident, $($place:ident)*) => {$(
+    ($access:ident, $script:ident, $device:ident, $($place:ident)*) => {$(
         for text in ["a", "bc", "def", "nineteen characters", "exactly 20 letters, "] {
-            $way!($device.$place(), write text)?;
+            $access!($device.$place(), write text)?;
             assert_eq!($script.at(stringify!($place)), text, "{} written", stringify!($place));
             let text: String = text.chars().rev().collect();
             $script.put(stringify!($place), text.as_str().into());
-            assert_eq!($way!($device.$place(), read_into &mut [0; 32])?, text, "{} read", stringify!($place));
+            assert_eq!($access!($device.$place(), read_into &mut [0; 32])?, text, "{} read", stringify!($place));
         }
     )*};
 }
 
 macro_rules! numbers {
-    ($way:ident, $script:ident, $device:ident) => {
-        exchange! { $way, $script, $device,
+    ($access:ident, $script:ident, $device:ident) => {
+        exchange! { $access, $script, $device,
             high_u16: [0xA55A, 1];
             high_i16: [-2, i16::MIN];
             high_u32: [0x1234_5678, u32::MAX - 1];
@@ -120,86 +120,86 @@ macro_rules! numbers {
             swapped_low_i32: [-0x1234_5678, i32::MIN + 1];
             swapped_low_f64: [-0.1, 1e300];
         }
-        exchange_texts! { $way, $script, $device, high_text low_text swapped_text }
+        exchange_texts! { $access, $script, $device, high_text low_text swapped_text }
     };
 }
 
 macro_rules! parts_and_meanings {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         $script.put("word_300", json!(0x1234));
-        assert_eq!($way!($device.lower_byte(), read)?, 0x34);
-        assert_eq!($way!($device.upper_byte(), read)?, 0x12);
-        $way!($device.upper_byte(), write -2)?;
+        assert_eq!($access!($device.lower_byte(), read)?, 0x34);
+        assert_eq!($access!($device.upper_byte(), read)?, 0x12);
+        $access!($device.upper_byte(), write -2)?;
         assert_eq!($script.at("word_300"), 0xFE34);
-        $way!($device.lower_byte(), write 0x56)?;
+        $access!($device.lower_byte(), write 0x56)?;
         assert_eq!($script.at("word_300"), 0xFE56);
         $script.put("word_301", json!(0x0F2F));
-        assert_eq!($way!($device.three_bits(), read)?, 2);
-        $way!($device.three_bits(), write 5)?;
-        $way!($device.one_bit(), write true)?;
+        assert_eq!($access!($device.three_bits(), read)?, 2);
+        $access!($device.three_bits(), write 5)?;
+        $access!($device.one_bit(), write true)?;
         assert_eq!($script.at("word_301"), 0x8F5F);
 
-        exchange! { $way, $script, $device, temperature: [-400, 215]; }
-        assert_eq!($way!($device.temperature(), read_scaled)?, 21.5);
-        $way!($device.temperature(), write_scaled -12.3)?;
+        exchange! { $access, $script, $device, temperature: [-400, 215]; }
+        assert_eq!($access!($device.temperature(), read_scaled)?, 21.5);
+        $access!($device.temperature(), write_scaled -12.3)?;
         assert_eq!($script.at("temperature"), -123);
-        assert!(matches!($way!($device.temperature(), write 1251).map_err(Error::from), Err(Error::OutOfRange(_))));
-        $way!($device.mode(), write Mode::ByHand)?;
+        assert!(matches!($access!($device.temperature(), write 1251).map_err(Error::from), Err(Error::OutOfRange(_))));
+        $access!($device.mode(), write Mode::ByHand)?;
         assert_eq!($script.at("mode"), 2);
         $script.put("mode", json!(7));
-        assert_eq!($way!($device.mode(), read)?, Mode::Unknown(7));
+        assert_eq!($access!($device.mode(), read)?, Mode::Unknown(7));
         let status = Status::new().with_running(true).with_direction(Direction::Backward);
-        $way!($device.status(), write status)?;
+        $access!($device.status(), write status)?;
         assert_eq!($script.at("status"), 0b1001);
         $script.put("status", json!(0b0110));
-        let status = $way!($device.status(), read)?;
+        let status = $access!($device.status(), read)?;
         assert_eq!((status.running(), status.fault(), status.direction()), (false, true, Direction::Forward));
         // The word after the three written words must not change.
         $script.put("words_305", json!(0x1111_2222_3333_4444_u64));
-        assert_eq!($way!($device.three_words(), read)?, 0x1111_2222_3333);
-        $way!($device.three_words(), write 0xFEDC_BA98_7654)?;
+        assert_eq!($access!($device.three_words(), read)?, 0x1111_2222_3333);
+        $access!($device.three_words(), write 0xFEDC_BA98_7654)?;
         assert_eq!($script.at("words_305"), 0xFEDC_BA98_7654_4444_u64);
     };
 }
 
 macro_rules! other_tables {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         $script.put("input_i16", json!(-2));
-        assert_eq!($way!($device.input_i16(), read)?, -2);
+        assert_eq!($access!($device.input_i16(), read)?, -2);
         $script.put("input_u32", json!(0x89AB_CDEF_u32));
-        assert_eq!($way!($device.input_u32(), read)?, 0x89AB_CDEF);
+        assert_eq!($access!($device.input_u32(), read)?, 0x89AB_CDEF);
         $script.put("input_low_f32", json!(-1.5));
-        assert_eq!($way!($device.input_low_f32(), read)?, -1.5);
+        assert_eq!($access!($device.input_low_f32(), read)?, -1.5);
         $script.put("input_text", json!("a text of inputs"));
-        assert_eq!($way!($device.input_text(), read_into &mut [0; 32])?, "a text of inputs");
+        assert_eq!($access!($device.input_text(), read_into &mut [0; 32])?, "a text of inputs");
 
-        $way!($device.coil(), write true)?;
-        $way!($device.coils(), write 0b1000_0110)?;
-        $way!($device.more_coils(), write 0b1001_0000_0001)?;
+        $access!($device.coil(), write true)?;
+        $access!($device.coils(), write 0b1000_0110)?;
+        $access!($device.more_coils(), write 0b1001_0000_0001)?;
         assert_eq!($script.at("coils"), json!([0, 9, 10, 15, 19, 27, 30]));
-        $way!($device.coil(), write false)?;
-        $way!($device.next_coil(), write true)?;
+        $access!($device.coil(), write false)?;
+        $access!($device.next_coil(), write true)?;
         assert_eq!($script.at("coils"), json!([1, 9, 10, 15, 19, 27, 30]));
         $script.put("coils", json!([1, 8, 11, 20, 30]));
-        assert!(!$way!($device.coil(), read)?);
-        assert!($way!($device.next_coil(), read)?);
-        assert_eq!($way!($device.coils(), read)?, 0b0000_1001);
-        assert_eq!($way!($device.more_coils(), read)?, 0b1000_0000_0010);
+        assert!(!$access!($device.coil(), read)?);
+        assert!($access!($device.next_coil(), read)?);
+        assert_eq!($access!($device.coils(), read)?, 0b0000_1001);
+        assert_eq!($access!($device.more_coils(), read)?, 0b1000_0000_0010);
         $script.put("discretes", json!([2, 5, 14, 15]));
-        assert!($way!($device.discrete(), read)?);
-        assert_eq!($way!($device.discretes(), read)?, 0b10_0000_0001);
+        assert!($access!($device.discrete(), read)?);
+        assert_eq!($access!($device.discretes(), read)?, 0b10_0000_0001);
     };
 }
 
 /// Checks that the client reports the Modbus exceptions that the server returns.
 macro_rules! refusals {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         let refused = [
-            $way!($device.missing(), read).map(|_| ()),
-            $way!($device.missing(), write 1),
-            $way!($device.half_missing(), read).map(|_| ()),
-            $way!($device.half_missing(), write 1),
-            $way!($device.protected(), write 1),
+            $access!($device.missing(), read).map(|_| ()),
+            $access!($device.missing(), write 1),
+            $access!($device.half_missing(), read).map(|_| ()),
+            $access!($device.half_missing(), write 1),
+            $access!($device.protected(), write 1),
         ];
         for refused in refused {
             let refused = refused.map_err(Error::from);
@@ -210,30 +210,30 @@ macro_rules! refusals {
             assert!(is_exception, "{refused:?}");
         }
         // The next request after the exceptions must succeed.
-        assert_eq!($way!($device.protected(), read)?, 0);
+        assert_eq!($access!($device.protected(), read)?, 0);
     };
 }
 
 /// Checks which function codes the clients use for each kind of access.
 macro_rules! functions {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         $script.functions();
-        $way!($device.high_u16(), write 1)?;
-        $way!($device.low_u32(), write 1)?;
-        $way!($device.lower_byte(), write 1)?;
-        $way!($device.low_u32(), read)?;
-        $way!($device.input_u32(), read)?;
-        $way!($device.coil(), write true)?;
-        $way!($device.coils(), write 1)?;
-        $way!($device.coils(), read)?;
-        $way!($device.discretes(), read)?;
+        $access!($device.high_u16(), write 1)?;
+        $access!($device.low_u32(), write 1)?;
+        $access!($device.lower_byte(), write 1)?;
+        $access!($device.low_u32(), read)?;
+        $access!($device.input_u32(), read)?;
+        $access!($device.coil(), write true)?;
+        $access!($device.coils(), write 1)?;
+        $access!($device.coils(), read)?;
+        $access!($device.discretes(), read)?;
         assert_eq!($script.functions(), json!([6, 16, 3, 6, 3, 4, 5, 15, 1, 2]));
     };
 }
 
 /// Checks that one request per table reads adjacent items.
 macro_rules! blocks {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         $script.put("high_u16", json!(0xA55A));
         $script.put("high_i16", json!(-2));
         $script.put("high_u32", json!(0x1234_5678));
@@ -242,10 +242,10 @@ macro_rules! blocks {
         $script.put("input_u32", json!(0x89AB_CDEF_u32));
         $script.put("coils", json!([1, 8, 11]));
         $script.functions();
-        let values = $way!($device.client(), read_block(HIGH_U32, HIGH_U16, HIGH_I16))?;
+        let values = $access!($device.client(), read_block(HIGH_U32, HIGH_U16, HIGH_I16))?;
         assert_eq!(values, (0x1234_5678, 0xA55A, -2));
         assert_eq!($script.functions(), json!([3]));
-        let values = $way!($device.client(), read_block(LOW_I32, LOW_F32, INPUT_U32, COILS, NEXT_COIL))?;
+        let values = $access!($device.client(), read_block(LOW_I32, LOW_F32, INPUT_U32, COILS, NEXT_COIL))?;
         assert_eq!(values, (-0x1234_5678, -1.5, 0x89AB_CDEF, 0b0000_1001, true));
         let functions = $script.functions();
         let mut functions: Vec<u64> = functions.as_array().into_iter().flatten().filter_map(Value::as_u64).collect();
@@ -257,23 +257,23 @@ macro_rules! blocks {
 
 /// Checks the functions 22 and 23, which the client's limits allow.
 macro_rules! optional_functions {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         $script.put("word_300", json!(0x1234));
         $script.put("high_i16", json!(0x0F0F));
         $script.functions();
-        $way!($device.upper_byte(), write -2)?;
+        $access!($device.upper_byte(), write -2)?;
         assert_eq!($script.at("word_300"), 0xFE34);
-        $way!($device.client(), write_masked HIGH_I16, 0x1111, 0x00FF)?;
+        $access!($device.client(), write_masked HIGH_I16, 0x1111, 0x00FF)?;
         assert_eq!($script.at("high_i16"), 0x0F11);
         assert_eq!($script.functions(), json!([22, 22]));
 
         $script.put("low_i32", json!(-0x1234_5678));
-        let values = $way!($device.client(), exchange (HIGH_U16, HIGH_I16), (0xA55A, -3), (LOW_I32,))?;
+        let values = $access!($device.client(), exchange (HIGH_U16, HIGH_I16), (0xA55A, -3), (LOW_I32,))?;
         assert_eq!(values, (-0x1234_5678,));
         assert_eq!(($script.at("high_u16"), $script.at("high_i16")), (json!(0xA55A), json!(-3)));
         // The server writes before it reads.
-        assert_eq!($way!($device.client(), exchange (HIGH_U32,), (5,), (HIGH_U32, HIGH_I16))?, (5, -3));
-        $way!($device.client(), write_block (HIGH_I16, HIGH_U16), (-4, 6))?;
+        assert_eq!($access!($device.client(), exchange (HIGH_U32,), (5,), (HIGH_U32, HIGH_I16))?, (5, -3));
+        $access!($device.client(), write_block (HIGH_I16, HIGH_U16), (-4, 6))?;
         assert_eq!(($script.at("high_u16"), $script.at("high_i16")), (json!(6), json!(-4)));
         assert_eq!($script.functions(), json!([23, 23, 16]));
     };
@@ -284,16 +284,16 @@ pub const OPTIONAL: Limits =
     Limits { holding: TableLimits { functions: &[3, 6, 16, 22, 23], ..TableLimits::HOLDING }, ..Limits::STANDARD };
 
 macro_rules! all_scenarios {
-    ($way:ident, $script:ident, $device:ident) => {
-        numbers! { $way, $script, $device }
-        parts_and_meanings! { $way, $script, $device }
-        other_tables! { $way, $script, $device }
-        refusals! { $way, $script, $device }
-        functions! { $way, $script, $device }
-        blocks! { $way, $script, $device }
+    ($access:ident, $script:ident, $device:ident) => {
+        numbers! { $access, $script, $device }
+        parts_and_meanings! { $access, $script, $device }
+        other_tables! { $access, $script, $device }
+        refusals! { $access, $script, $device }
+        functions! { $access, $script, $device }
+        blocks! { $access, $script, $device }
         let client = $device.into_client().with_limits(OPTIONAL);
         let mut device = Registers::new(client);
-        optional_functions! { $way, $script, device }
+        optional_functions! { $access, $script, device }
     };
 }
 

@@ -16,20 +16,20 @@ use crate::modbus::{over_rtu, over_tcp, Error, BAUD, DEVICE, OPTIONAL, PATIENCE}
 
 /// Sends broadcasts, then a request to one device.
 macro_rules! broadcasts {
-    ($way:ident, $script:ident, $device:ident) => {
+    ($access:ident, $script:ident, $device:ident) => {
         let start = Instant::now();
         $device.client().context().set_slave(Slave::broadcast());
-        $way!($device.high_u16(), write 0xA55A)?;
-        $way!($device.client(), write_block (HIGH_I16, HIGH_U32), (-2, 0x1234_5678))?;
-        $way!($device.client(), write_masked HIGH_U16, 0, 0x00FF)?;
-        $way!($device.coil(), write true)?;
+        $access!($device.high_u16(), write 0xA55A)?;
+        $access!($device.client(), write_block (HIGH_I16, HIGH_U32), (-2, 0x1234_5678))?;
+        $access!($device.client(), write_masked HIGH_U16, 0, 0x00FF)?;
+        $access!($device.coil(), write true)?;
         assert!(start.elapsed() >= 4 * TURNAROUND && start.elapsed() < PATIENCE, "{:?}", start.elapsed());
-        let refused = $way!($device.high_u16(), read).map_err(Error::from);
+        let refused = $access!($device.high_u16(), read).map_err(Error::from);
         assert!(matches!(refused, Err(Error::Client(ModbusError::Broadcast))), "{refused:?}");
 
         $device.client().context().set_slave(DEVICE);
-        assert_eq!($way!($device.client(), read_block (HIGH_U16, HIGH_I16, HIGH_U32))?, (0xA500, -2, 0x1234_5678));
-        assert!($way!($device.coil(), read)?);
+        assert_eq!($access!($device.client(), read_block (HIGH_U16, HIGH_I16, HIGH_U32))?, (0xA500, -2, 0x1234_5678));
+        assert!($access!($device.coil(), read)?);
         assert_eq!($script.functions(), json!([6, 16, 22, 5, 3, 1]));
     };
 }

@@ -45,9 +45,9 @@ impl Drive {
                 1 => self.read(axis, pnu, subindices),
                 _ => {
                     let size = Format(values[0]).size().expect("a known format");
-                    let (own, rest) = values[2..].split_at(size * usize::from(values[1]));
-                    let answer = self.change(axis, pnu, subindices, Format(values[0]), own);
-                    values = &rest[own.len() % 2..];
+                    let (bytes, rest) = values[2..].split_at(size * usize::from(values[1]));
+                    let answer = self.change(axis, pnu, subindices, Format(values[0]), bytes);
+                    values = &rest[bytes.len() % 2..];
                     answer
                 }
             };

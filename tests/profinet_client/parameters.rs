@@ -27,21 +27,21 @@ fn parameters_byte_by_byte() {
 #[test]
 fn every_type_comes_back() {
     fn there_and_back<T: ParameterValue + Copy + PartialEq + std::fmt::Debug>(values: &mut [T]) {
-        let own = values.to_vec();
+        let expected = values.to_vec();
         let mut parameters = ParameterAccess::new(Device::default(), 1, 1);
         parameters.write_array(1, 2000, 5, values).unwrap();
         values.reverse();
         parameters.read_array(1, 2000, 5, values).unwrap();
-        assert_eq!(values, own);
-        assert_eq!(parameters.read::<T>(1, 2000, 6), Ok(own[1]));
+        assert_eq!(values, expected);
+        assert_eq!(parameters.read::<T>(1, 2000, 6), Ok(expected[1]));
         now(async {
             let mut parameters = ParameterAccess::new(Async(parameters.into_client()), 1, 1);
-            parameters.write_async(1, 2000, 6, own[2]).await.unwrap();
-            parameters.write_array_async(1, 2000, 8, &own[..2]).await.unwrap();
-            assert_eq!(parameters.read_async::<T>(1, 2000, 6).await, Ok(own[2]));
+            parameters.write_async(1, 2000, 6, expected[2]).await.unwrap();
+            parameters.write_array_async(1, 2000, 8, &expected[..2]).await.unwrap();
+            assert_eq!(parameters.read_async::<T>(1, 2000, 6).await, Ok(expected[2]));
             parameters.read_array_async(1, 2000, 8, &mut values[1..]).await.unwrap();
         });
-        assert_eq!(values[1..], own[..2]);
+        assert_eq!(values[1..], expected[..2]);
     }
     there_and_back(&mut [true, false, false]);
     there_and_back(&mut [u8::MAX, 0, 7]);

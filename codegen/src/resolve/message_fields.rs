@@ -78,9 +78,9 @@ impl Commands {
     /// not have the bit that the command polls.
     fn of(&self, replied: MessageId, value: &MessageValue, owner: Owner<'_>) -> Option<PolledCommand> {
         let all = self.0.get(&value.item.name)?;
-        let own = all.iter().find(|polling| polling.command == replied);
+        let of_replied = all.iter().find(|polling| polling.command == replied);
         let common = || all.first().filter(|first| all.iter().all(|polling| polling.condition == first.condition));
-        let Polling { command, condition } = own.or_else(common)?;
+        let Polling { command, condition } = of_replied.or_else(common)?;
         let bits = match &condition.bit {
             Some(bit) => Some(position_of_bits(bit, value, owner)?),
             None => None,

@@ -98,7 +98,7 @@ impl Controller {
     fn mailbox(&self, address: usize) -> Option<Manager> {
         (0..8)
             .map(|number| self.manager(number))
-            .find(|own| own.enabled && own.is_mailbox && own.range.contains(&address))
+            .find(|manager| manager.enabled && manager.is_mailbox && manager.range.contains(&address))
     }
 
     /// Handles a read by the master. Returns `None` if the working counter is not incremented.
@@ -155,17 +155,17 @@ impl Controller {
             self.latch();
         }
         for number in 0..8 {
-            let own = self.manager(number);
-            if !range.contains(&(own.state + 1)) {
+            let manager = self.manager(number);
+            if !range.contains(&(manager.state + 1)) {
                 continue;
             }
-            if (self.memory[own.state + 1] ^ self.memory[own.state + 2]) & REPEAT != 0 {
+            if (self.memory[manager.state + 1] ^ self.memory[manager.state + 2]) & REPEAT != 0 {
                 let message = std::mem::take(&mut self.last);
-                self.put(&own, &message);
-                self.memory[own.state + 2] ^= REPEAT;
+                self.put(&manager, &message);
+                self.memory[manager.state + 2] ^= REPEAT;
             } else {
                 // Reconfiguring a sync manager clears its buffer.
-                self.memory[own.state] = 0;
+                self.memory[manager.state] = 0;
             }
         }
     }

@@ -71,23 +71,23 @@ fn general(device: &Device) -> Vec<u8> {
 /// Returns the category "FMMU". The category contains an FMMU for outputs, an FMMU for inputs, and an FMMU for the
 /// status of the mailbox. FMMUs for missing process data are left out.
 fn fmmus(device: &Device) -> Vec<u8> {
-    let of = |purpose| device.sync_managers.iter().any(|own| own.purpose == purpose);
+    let of = |purpose| device.sync_managers.iter().any(|manager| manager.purpose == purpose);
     let outputs = of(SyncManagerPurpose::Outputs).then_some(1);
     outputs.into_iter().chain(of(SyncManagerPurpose::Inputs).then_some(2)).chain([3]).collect()
 }
 
 fn managers(device: &Device) -> Vec<u8> {
     let mut bytes = Vec::new();
-    for own in device.sync_managers {
-        let purpose = match own.purpose {
+    for manager in device.sync_managers {
+        let purpose = match manager.purpose {
             SyncManagerPurpose::MailboxOut => 1,
             SyncManagerPurpose::MailboxIn => 2,
             SyncManagerPurpose::Outputs => 3,
             SyncManagerPurpose::Inputs => 4,
         };
-        bytes.extend(own.start_address.to_le_bytes());
-        bytes.extend(own.default_size.to_le_bytes());
-        bytes.extend([own.control, 0, u8::from(own.enable), purpose]);
+        bytes.extend(manager.start_address.to_le_bytes());
+        bytes.extend(manager.default_size.to_le_bytes());
+        bytes.extend([manager.control, 0, u8::from(manager.enable), purpose]);
     }
     bytes
 }

@@ -46,10 +46,10 @@ impl Pdos {
             let words = pdo.mapping.iter().map(|entry| entry.word()).collect();
             lists.insert(pdo.index, List::new(words, 4, configures && !pdo.fixed));
         }
-        for manager in device.sync_managers.iter().filter(|own| own.carries_data()) {
+        for manager in device.sync_managers.iter().filter(|manager| manager.carries_data()) {
             let defaults = device.default_pdos.iter().filter_map(|index| device.pdo(*index));
-            let own = defaults.filter(|pdo| device.sync_manager_of(pdo) == Some(manager.number));
-            let indices = own.map(|pdo| u32::from(pdo.index)).collect();
+            let assigned = defaults.filter(|pdo| device.sync_manager_of(pdo) == Some(manager.number));
+            let indices = assigned.map(|pdo| u32::from(pdo.index)).collect();
             lists.insert(manager.assignment(), List::new(indices, 2, assigns));
         }
         Self { device, lists }

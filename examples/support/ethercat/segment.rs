@@ -73,8 +73,8 @@ impl Segment {
         while datagrams.len() >= DATAGRAM + COUNTER {
             let word = u16::from_le_bytes([datagrams[6], datagrams[7]]);
             let length = usize::from(word & 0x07FF);
-            let Some((own, rest)) = datagrams.split_at_mut_checked(DATAGRAM + length + COUNTER) else { break };
-            self.process(own);
+            let Some((datagram, rest)) = datagrams.split_at_mut_checked(DATAGRAM + length + COUNTER) else { break };
+            self.process(datagram);
             if word & 0x8000 == 0 {
                 break;
             }

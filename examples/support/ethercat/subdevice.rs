@@ -104,12 +104,12 @@ impl SubDevice {
     /// Checks the settings of the mailboxes against the device description. Returns an AL status code, or 0.
     fn check_mailbox(&self) -> u16 {
         let purposes = [SyncManagerPurpose::MailboxOut, SyncManagerPurpose::MailboxIn];
-        let mut mailboxes = self.device.sync_managers.iter().filter(|own| purposes.contains(&own.purpose));
-        let is_right = mailboxes.all(|own| {
-            let set = self.controller.manager(own.number);
-            let sizes = own.min_size.unwrap_or(1)..=own.max_size.unwrap_or(u16::MAX);
+        let mut mailboxes = self.device.sync_managers.iter().filter(|manager| purposes.contains(&manager.purpose));
+        let is_right = mailboxes.all(|manager| {
+            let set = self.controller.manager(manager.number);
+            let sizes = manager.min_size.unwrap_or(1)..=manager.max_size.unwrap_or(u16::MAX);
             set.enabled
-                && set.range.start == usize::from(own.start_address)
+                && set.range.start == usize::from(manager.start_address)
                 && sizes.contains(&(set.range.len() as u16))
         });
         if is_right {
@@ -121,12 +121,12 @@ impl SubDevice {
 
     /// Checks the lengths of the sync managers against the assigned PDOs. Returns an AL status code, or 0.
     fn check_process_data(&self) -> u16 {
-        let wrong = self.device.sync_managers.iter().filter(|own| own.carries_data()).find(|own| {
-            let set = self.controller.manager(own.number);
-            let bytes = self.pdos.bytes(own.number);
+        let wrong = self.device.sync_managers.iter().filter(|manager| manager.carries_data()).find(|manager| {
+            let set = self.controller.manager(manager.number);
+            let bytes = self.pdos.bytes(manager.number);
             set.range.len() != bytes || set.enabled != (bytes > 0)
         });
-        match wrong.map(|own| own.purpose) {
+        match wrong.map(|manager| manager.purpose) {
             None => 0,
             Some(SyncManagerPurpose::Outputs) => INVALID_OUTPUTS,
             Some(_) => INVALID_INPUTS,
@@ -134,15 +134,16 @@ impl SubDevice {
     }
 
     fn serve_mailbox(&mut self) {
-        let number =
-            |purpose| self.device.sync_managers.iter().find(|own| own.purpose == purpose).map(|own| own.number);
+        let number = |purpose| {
+            self.device.sync_managers.iter().find(|manager| manager.purpose == purpose).map(|manager| manager.number)
+        };
         let (out, back) = (number(SyncManagerPurpose::MailboxOut), number(SyncManagerPurpose::MailboxIn));
         let (Some(out), Some(back)) = (out, back) else { return };
         let back = self.controller.manager(back);
         let request = self.controller.take(&self.controller.manager(out));
         let answer = request.and_then(|message| {
             let mut objects =
-                Objects { is_pre_op: self.state == PRE_OP, pdos: &mut self.pdos, own: &mut *self.objects };
+                Objects { is_pre_op: self.state == PRE_OP, pdos: &mut self.pdos, dictionary: &mut *self.objects };
             self.server.answer(&message, back.range.len(), &mut objects)
         });
         for emergency in self.objects.emergencies() {
@@ -164,18 +165,18 @@ impl SubDevice {
         if !matches!(self.state, SAFE_OP | OP) {
             return;
         }
-        let of = |purpose| self.device.sync_managers.iter().filter(move |own| own.purpose == purpose);
+        let of = |purpose| self.device.sync_managers.iter().filter(move |manager| manager.purpose == purpose);
         if self.state == OP {
-            for own in of(SyncManagerPurpose::Outputs) {
-                let data = self.controller.load(&self.controller.manager(own.number));
-                self.pdos.scatter(own.number, &data, &mut *self.objects);
+            for manager in of(SyncManagerPurpose::Outputs) {
+                let data = self.controller.load(&self.controller.manager(manager.number));
+                self.pdos.scatter(manager.number, &data, &mut *self.objects);
             }
         }
         self.objects.cycle(self.state == OP);
-        for own in of(SyncManagerPurpose::Inputs) {
-            let data = self.pdos.gather(own.number, &mut *self.objects);
-            let manager = self.controller.manager(own.number);
-            self.controller.store(&manager, &data);
+        for manager in of(SyncManagerPurpose::Inputs) {
+            let data = self.pdos.gather(manager.number, &mut *self.objects);
+            let set = self.controller.manager(manager.number);
+            self.controller.store(&set, &data);
         }
     }
 }
@@ -183,7 +184,7 @@ impl SubDevice {
 /// All objects of a device, including the PDO configuration objects.
 struct Objects<'d> {
     pdos: &'d mut Pdos,
-    own: &'d mut dyn Dictionary,
+    dictionary: &'d mut dyn Dictionary,
     is_pre_op: bool,
 }
 
@@ -192,19 +193,20 @@ impl Dictionary for Objects<'_> {
         if self.pdos.has(index) {
             self.pdos.read(index, sub_index)
         } else {
-            self.own.read(index, sub_index)
+            self.dictionary.read(index, sub_index)
         }
     }
 
     fn write(&mut self, index: u16, sub_index: u8, data: &[u8]) -> Result<(), u32> {
         if !self.pdos.has(index) {
-            return self.own.write(index, sub_index, data);
+            return self.dictionary.write(index, sub_index, data);
         }
         if !self.is_pre_op {
             return Err(AbortCode::DEVICE_STATE.0);
         }
         // An index of 0 means a gap.
-        let exists = |entry: MappedEntry| entry.index == 0 || self.own.read(entry.index, entry.sub_index).is_ok();
+        let exists =
+            |entry: MappedEntry| entry.index == 0 || self.dictionary.read(entry.index, entry.sub_index).is_ok();
         self.pdos.write(index, sub_index, data, exists)
     }
 }

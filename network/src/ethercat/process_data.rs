@@ -53,7 +53,7 @@ impl<'d> Layout<'d> {
         self.placed.push(Placed { slot, index, sync_manager, bit_offset, bits, content });
     }
 
-    fn add_own(&mut self, assigned: Assigned<'d>) {
+    fn add_assigned(&mut self, assigned: Assigned<'d>) {
         let (pdo, sync_manager) = assigned;
         self.add(None, pdo.mapping_index, sync_manager, pdo.bits(), PlacedContent::Pdo(pdo, Offsets::default()));
     }
@@ -63,13 +63,13 @@ impl<'d> Layout<'d> {
 pub(super) fn place<'d>(device: &'d Device, assigned: &[Assigned<'d>], plugged: &[Plugged<'d>]) -> Vec<Placed<'d>> {
     let mut layout = Layout { placed: Vec::new() };
     if device.slots.is_empty() {
-        assigned.iter().for_each(|assigned| layout.add_own(*assigned));
+        assigned.iter().for_each(|assigned| layout.add_assigned(*assigned));
         return layout.placed;
     }
     for manager in &device.process_data.sync_managers {
         let Some(direction) = direction(manager.purpose) else { continue };
-        let own = assigned.iter().filter(|(_, number)| *number == manager.number);
-        own.for_each(|assigned| layout.add_own(*assigned));
+        let of_manager = assigned.iter().filter(|(_, number)| *number == manager.number);
+        of_manager.for_each(|assigned| layout.add_assigned(*assigned));
         for group in groups(device) {
             add_group(&mut layout, device, plugged, manager.number, direction, group);
         }

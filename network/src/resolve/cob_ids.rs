@@ -34,7 +34,7 @@ impl CobIds {
         let all = || nodes.iter().flat_map(|node| node.declared.pdos.iter().map(move |declared| (node, declared)));
         let mut without = Vec::new();
         for (node, declared) in all() {
-            match own(node, declared) {
+            match independent(node, declared) {
                 Some(cob_id) => drop(ids.0.insert(key(node, declared), cob_id)),
                 None => without.push((node, declared)),
             }
@@ -141,7 +141,7 @@ fn services(node: &DescribedNode<'_>) -> Vec<u32> {
 
 /// Returns the COB-ID of a PDO if it does not depend on other PDOs. This is the first that exists of the declared COB-ID,
 /// that of the description, and that of the predefined connection set.
-fn own(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
+fn independent(node: &DescribedNode<'_>, declared: &DeclaredPdo) -> Option<u32> {
     let of_description = || {
         let pdo = pdo(node.initial(), direction(declared), declared.number.value)?;
         (pdo.cob_id & DISABLED == 0 || !declared.enabled).then_some(pdo.cob_id)

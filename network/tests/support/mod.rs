@@ -25,9 +25,9 @@ pub fn example_file(name: &str) -> String {
 /// Returns the entries of a concise DCF.
 pub fn entries(mut bytes: &[u8]) -> Vec<Entry> {
     let mut take = |length: usize| {
-        let (taken, rest) = bytes.split_at(length);
+        let (part, rest) = bytes.split_at(length);
         bytes = rest;
-        taken.to_vec()
+        part.to_vec()
     };
     let number = |bytes: &[u8]| bytes.iter().rev().fold(0usize, |number, byte| number << 8 | usize::from(*byte));
     let count = number(&take(4));

@@ -192,7 +192,7 @@ fn noise(seed: &mut u32) -> u8 {
 #[test]
 fn whatever_a_drive_sends_is_read_or_refused() {
     let request = read(&[ONE; 5]);
-    let (mut seed, mut taken) = (1, 0);
+    let (mut seed, mut decoded) = (1, 0);
     for _ in 0..20_000 {
         let mut data = std::vec![7, 0x81, 2, noise(&mut seed) % 7];
         for _ in 0..noise(&mut seed) % 40 {
@@ -200,7 +200,7 @@ fn whatever_a_drive_sends_is_read_or_refused() {
             data.extend([formats[usize::from(noise(&mut seed) % 8)], noise(&mut seed) % 4, noise(&mut seed)]);
         }
         if let Ok(response) = Response::decode(&request, &data) {
-            taken += 1;
+            decoded += 1;
             assert_eq!(response.answers().count(), usize::from(response.count()));
             for answer in response.answers() {
                 let Answer::Values(values) = answer else { continue };
@@ -209,5 +209,5 @@ fn whatever_a_drive_sends_is_read_or_refused() {
             }
         }
     }
-    assert!(taken > 100, "{taken}");
+    assert!(decoded > 100, "{decoded}");
 }

@@ -65,8 +65,8 @@ pub(super) fn sync_managers(context: &Context<'_>) -> Vec<u8> {
 /// the default PDOs of this sync manager, at most 65535.
 fn length(assigned: &[(&Pdo, u8)], manager: &SyncManager) -> u16 {
     manager.default_size.unwrap_or_else(|| {
-        let own = assigned.iter().filter(|(_, number)| *number == manager.number);
-        let bits = own.fold(0, |bits: u32, (pdo, _)| bits.saturating_add(pdo.bits()));
+        let of_manager = assigned.iter().filter(|(_, number)| *number == manager.number);
+        let bits = of_manager.fold(0, |bits: u32, (pdo, _)| bits.saturating_add(pdo.bits()));
         bits.div_ceil(8).try_into().unwrap_or(u16::MAX)
     })
 }

@@ -29,8 +29,8 @@ deviceFilter?.addEventListener("input", () => {
 function showElsewhere(words) {
   if (!elsewhere) return;
   load();
-  const here = new Set([...document.querySelectorAll(".devices th a")].map((link) => link.href));
-  const links = devicesWith(words).filter((link) => !here.has(link.href)).slice(0, MOST);
+  const listed = new Set([...document.querySelectorAll(".devices th a")].map((link) => link.href));
+  const links = devicesWith(words).filter((link) => !listed.has(link.href)).slice(0, MOST);
   elsewhere.replaceChildren(...links.map((link) => element("li", {}, link)));
   elsewhere.hidden = !links.length;
 }

@@ -200,9 +200,9 @@ const ownerOf = (place) => {
   return place;
 };
 const anchorOf = (place) => {
-  const { text, isPart } = printedAt(place), own = anchors[anchorAt[entryAt[place]]] || text;
+  const { text, isPart } = printedAt(place), anchor = anchors[anchorAt[entryAt[place]]] || text;
   // The anchor of a part is derived from its number: `bit-3-0` for `bit 3–0`, `value-3` for `value 3 to 5`.
-  return isPart ? `${anchorOf(ownerOf(place))}.${own.replace(" ", "-").replace(/ .*/, "").replace("–", "-")}` : own;
+  return isPart ? `${anchorOf(ownerOf(place))}.${anchor.replace(" ", "-").replace(/ .*/, "").replace("–", "-")}` : anchor;
 };
 const linkOf = (place) => {
   const anchor = anchorOf(place);

@@ -130,8 +130,8 @@ impl InUse {
         if let Some(((_, start), other)) = other {
             let (name, other_name) = (brief(&item.name), brief(&other.name));
             let range = |first, last| numbered(space, &[numbers(first, last)]);
-            let (own, others) = (range(first, last), range(*start, other.last));
-            let message = format!("`{name}` ({own}) overlaps `{other_name}` ({others})");
+            let (registers, other_registers) = (range(first, last), range(*start, other.last));
+            let message = format!("`{name}` ({registers}) overlaps `{other_name}` ({other_registers})");
             let found = codes::SHARED_REGISTERS.at(item.at.name, message).note_at(other.span, "the other item");
             reader.diagnostics.push(found.help("correct the register number of one item, or use a shorter type"));
         }
