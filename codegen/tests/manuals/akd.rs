@@ -4,7 +4,6 @@
 use crate::manual_text;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::RangeInclusive;
 use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
@@ -146,10 +145,10 @@ const CORRECTED: [(usize, &str, (u8, u8)); 4] =
     [(573, "Da 3 a 7", (6, 2)), (593, "0x201", (10, 1)), (594, "0x201", (11, 1)), (596, "SyncManager 7", (12, 4))];
 
 /// Compares a bit field with printed rows, which contain a parameter, an address and bits. Returns the number of compared rows.
-fn table_of_bits(manual: &[String], device: &Device, name: &str, lines: RangeInclusive<usize>, base: u32) -> usize {
+fn table_of_bits(manual: &[String], device: &Device, name: &str, first: usize, last: usize, base: u32) -> usize {
     let fields = fields(device, name);
     let mut held = 0;
-    for (line, cells) in rows(manual, *lines.start(), *lines.end()) {
+    for (line, cells) in rows(manual, first, last) {
         // Skip additional values of the previous field, incomplete names, and bits outside the register.
         if cells[0].starts_with("0x") || [595, 597, 598].contains(&line) {
             continue;
@@ -180,12 +179,12 @@ fn bits_of_the_registers() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    assert_eq!(table_of_bits(&manual, device, "InterruptEnable", 567..=578, 0x204), 12);
+    assert_eq!(table_of_bits(&manual, device, "InterruptEnable", 567, 578, 0x204), 12);
     // The manual's table has twelve rows. The last row describes bits outside the register, and bit 1 has no row.
-    assert_eq!(table_of_bits(&manual, device, "AlEventRequest", 585..=598, 0x220), 11);
+    assert_eq!(table_of_bits(&manual, device, "AlEventRequest", 585, 598, 0x220), 11);
     assert_eq!(fields(device, "AlEventRequest").len(), 12);
-    assert_eq!(table_of_bits(&manual, device, "AlControl", 609..=616, 0x120), 4);
-    assert_eq!(table_of_bits(&manual, device, "AlStatus", 621..=628, 0x130), 4);
+    assert_eq!(table_of_bits(&manual, device, "AlControl", 609, 616, 0x120), 4);
+    assert_eq!(table_of_bits(&manual, device, "AlStatus", 621, 628, 0x130), 4);
     let states = values(device, "CommunicationState");
     for (first, last) in [(609, 613), (621, 625)] {
         let printed = rows(&manual, first, last);
@@ -616,8 +615,8 @@ fn mailbox_frames_and_their_example() {
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
     assert_eq!(example.reply, reply);
-    frame(&manual, device, &message.request, 1137..=1165);
-    frame(&manual, device, &message.reply, 1176..=1205);
+    frame(&manual, device, &message.request, 1137, 1165);
+    frame(&manual, device, &message.reply, 1176, 1205);
     let services = values(device, "CoeService");
     for (line, cells) in rows(&manual, 1147, 1155).into_iter().chain(rows(&manual, 1186, 1194)) {
         let cell = cells.iter().rev().find(|cell| cell.contains(':')).expect("a type");
@@ -636,7 +635,7 @@ fn mailbox_frames_and_their_example() {
 }
 
 /// Compares the printed rows `Byte 0` to `Byte 15` of a frame with the message fields that contain these bytes.
-fn frame(manual: &[String], device: &Device, fields: &[MessageField], lines: RangeInclusive<usize>) {
+fn frame(manual: &[String], device: &Device, fields: &[MessageField], first: usize, last: usize) {
     let mut bytes: Vec<Option<BTreeSet<usize>>> = Vec::new();
     for field in fields {
         let (length, cites) = match field {
@@ -650,7 +649,7 @@ fn frame(manual: &[String], device: &Device, fields: &[MessageField], lines: Ran
         };
         bytes.extend((0..length).map(|_| cites.clone()));
     }
-    let printed: Vec<(usize, usize)> = rows(manual, *lines.start(), *lines.end())
+    let printed: Vec<(usize, usize)> = rows(manual, first, last)
         .iter()
         .filter_map(|(line, cells)| Some((cells[0].strip_prefix("Byte ")?.parse().ok()?, *line)))
         .collect();
